@@ -91,21 +91,16 @@ rotid_cause result_cause(struct pool *pool, const struct candidate *candidate);
  * as it stands, without nodes, where beam is NULL. It leans on both. NULL where memory is out. */
 rotid_geometry *result_geometry(struct pool *pool, const struct rotor *rotor, const struct rotor_model *model);
 
-/* An identification as hosts and files have it; bounds: of the unknowns of its fit. Leans on these and on what was found. Without
- * noise, geometry and messages. NULL where there is no fit, or memory is out. */
-rotid_identification *result_identification(struct pool *pool, const struct job *job, const rotid_parameter *bounds,
-                                            const struct identification *found);
-
-/* The same of all states together, with noise and geometry and those of each in `states`; found [nstate], fit: of all. */
-rotid_identification *result_identification_states(struct pool *pool, const struct states *states,
-                                                   const struct identification *found, const rotid_fit_result *fit);
+/* An identification as hosts and files have it, without messages: of the states that were fitted together, found [nstate], fit:
+ * of all; of several those of each in `states`. Leans on these. NULL where there is no fit, or memory is out. */
+rotid_identification *result_identification(struct pool *pool, const struct states *states, const struct identification *found,
+                                            const rotid_fit_result *fit);
 
 /* Measured mode k beside the frequency predicted for its partner. Without residual, which is NaN. */
 rotid_compared_mode result_compared_mode(const struct job *job, const struct comparison *compared, int k, double predicted_hz);
 
-/* *WEIGHT and *CENTRE of a job beside a model of this mass, [*count]; state: its name, or NULL. NULL where memory is out. */
-rotid_weighed *result_weighed(struct pool *pool, const struct job *job, const char *state, const struct mass_properties *mass,
-                              int *count);
+/* *WEIGHT and *CENTRE of a job beside a model of this mass, [*count]. NULL where memory is out. */
+rotid_weighed *result_weighed(struct pool *pool, const struct job *job, const struct mass_properties *mass, int *count);
 
 /* Typical noise of the data of a job, and what the intervals of the fit rest on. NULL where memory is out. */
 rotid_noise *result_noise(struct pool *pool, const struct job *job, const rotid_fit_result *fit);

@@ -177,7 +177,11 @@ static int show_states(const struct states *states, struct pool *own, const roti
         list[s] = POOL_NEW(own, rotid_deck);
         if (!handle || !list[s])
             return ROTID_ERROR_MEMORY;
-        *handle = (struct deck_handle){.usable = 1, .states = {.nstate = 1, .state = (struct state *)state}};
+        *handle = (struct deck_handle){.usable = 1,
+                                       .states = {.nstate = 1,
+                                                  .state = (struct state *)state,
+                                                  .nparameter = state->job.unknowns.nparameter,
+                                                  .bounds = state->job.unknowns.bounds}};
         *list[s] = (rotid_deck){.path = deck->path, .memory = handle};
         int status = weigh(&state->job, environment, list[s]);
         if (status)

@@ -24,18 +24,6 @@ static int find_hidden(struct call *call, const struct states *states, const str
     return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
 }
 
-static rotid_identification *make_result(struct call *call, const struct states *states, const struct identification *found)
-{
-    struct pool *pool = &call->entry.scratch;
-    const struct job *job = &states->state[0].job;
-    rotid_identification *made = result_identification(pool, job, states->more ? states->bounds : job->unknowns.bounds, found);
-    if (!made)
-        return NULL;
-    made->noise = result_noise(pool, job, found->fit);
-    made->geometry = result_geometry(pool, &job->rotor, found->spectrum.model);
-    return made;
-}
-
 /* The measured critical speeds of the machine beside those at the fitted values. */
 static int compare_runup(struct call *call, const struct states *states, const rotid_fit_result *fit, rotid_identification *made)
 {
@@ -77,7 +65,7 @@ static int identify(struct call *call, const struct states *given, const struct 
     }
     if (one) /* a state with a name sees but its share of the fit */
         found->fit = fit;
-    rotid_identification *made = one ? make_result(call, states, found) : result_identification_states(pool, states, found, fit);
+    rotid_identification *made = result_identification(pool, states, found, fit);
     status = compare_runup(call, given, fit, made);
     if (!status && baseline && !states->more) /* the scan behind it knows modes alone */
         status = find_hidden(call, states, found, fit, made);

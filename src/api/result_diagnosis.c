@@ -128,13 +128,17 @@ static void fill_changes(struct pool *pool, const struct diagnosis *d, rotid_gai
             out->parameters[out->nparameters++] = changed_parameter(&after[p], base, -1, extended, p);
 }
 
-/* Of one state, or of several together. */
+/* As part of a diagnosis, which has the noise and the geometry. */
 static rotid_identification *identification(struct pool *pool, const struct states *states, const struct identification *first,
                                             const struct identification *each)
 {
-    if (states->nstate > 1)
-        return first->fit ? result_identification_states(pool, states, each, first->fit) : NULL;
-    return states->nstate ? result_identification(pool, &states->state->job, states->bounds, first) : NULL;
+    rotid_identification *out =
+        states->nstate && first->fit ? result_identification(pool, states, states->nstate > 1 ? each : first, first->fit) : NULL;
+    if (out) {
+        out->noise = NULL;
+        out->geometry = NULL;
+    }
+    return out;
 }
 
 /* A fit that was broken off before its model was taken belongs to no result, which would free it. */

@@ -109,8 +109,9 @@ static double bijection_chi(const struct job *job)
     return job->options.fit.bijection_chi > 0 ? job->options.fit.bijection_chi : standard.bijection_chi;
 }
 
-rotid_identification *result_identification(struct pool *pool, const struct job *job, const rotid_parameter *bounds,
-                                            const struct identification *found)
+/* Of a deck that is one state, or of one of several. */
+static rotid_identification *of_state(struct pool *pool, const struct job *job, const rotid_parameter *bounds,
+                                      const struct identification *found)
 {
     const rotid_fit_result *fit = found->fit;
     rotid_identification *out = fit ? POOL_NEW(pool, rotid_identification) : NULL;
@@ -138,28 +139,15 @@ rotid_identification *result_identification(struct pool *pool, const struct job 
                                   .nlopt = baseline_exists(),
                                   .seconds = fit->seconds,
                                   .fit = fit};
-    if (!(out->weighed = result_weighed(pool, job, NULL, &found->mass, &out->nweighed)))
-        return NULL;
+    out->weighed = result_weighed(pool, job, &found->mass, &out->nweighed);
+    out->noise = result_noise(pool, job, fit);
+    out->geometry = result_geometry(pool, &job->rotor, found->spectrum.model);
     fill_parameters(pool, bounds, fit, out);
     fill_modes(pool, job, found, out);
     fill_history(pool, found, out);
     if (found->spectrum.model && mode_shapes_make(pool, job, &found->spectrum, &found->compared, out))
         return NULL;
-    return out;
-}
-
-static int fill_state(struct pool *pool, const struct state *state, const rotid_parameter *bounds,
-                      const struct identification *found, rotid_identified_state *out)
-{
-    rotid_identification *part = result_identification(pool, &state->job, bounds, found);
-    if (!part)
-        return 1;
-    part->noise = result_noise(pool, &state->job, found->fit);
-    part->geometry = result_geometry(pool, &state->job.rotor, found->spectrum.model);
-    out->name = state->name;
-    out->fitted_residuals = found->fit->nresidual;
-    STATE_COPY(out, part);
-    return !out->noise || !out->geometry;
+    return pool->out_of_memory ? NULL : out;
 }
 
 /* The modes of all states, in the order of the fit. */
@@ -185,45 +173,40 @@ static int join_modes(struct pool *pool, const struct identification *found, con
     return short_of;
 }
 
-rotid_identification *result_identification_states(struct pool *pool, const struct states *states,
-                                                   const struct identification *found, const rotid_fit_result *fit)
+rotid_identification *result_identification(struct pool *pool, const struct states *states, const struct identification *found,
+                                            const rotid_fit_result *fit)
 {
-    rotid_identified_state *list = POOL_ARRAY(pool, rotid_identified_state, states->nstate);
-    rotid_identification *out = list ? result_identification(pool, &states->state[0].job, states->bounds, &found[0]) : NULL;
-    if (!out)
-        return NULL;
-    for (int s = 0; s < states->nstate; s++) {
-        if (fill_state(pool, &states->state[s], states->bounds, &found[s], &list[s]))
+    rotid_identification *out = of_state(pool, &states->state[0].job, states->bounds, &found[0]);
+    if (!out || states->nstate == 1)
+        return out;
+    out->nstates = POOL_LIST(pool, out->states, states->nstate);
+    out->nweighed = 0;
+    out->weighed = POOL_ARRAY(pool, rotid_weighed, 2 * (size_t)states->nstate);
+    for (int s = 0; s < out->nstates && out->weighed; s++) {
+        const struct state *state = &states->state[s];
+        const rotid_identification *part = of_state(pool, &state->job, states->bounds, &found[s]);
+        if (!part)
             return NULL;
-        out->shapes_fitted |= list[s].shapes_fitted;
+        out->states[s].name = state->name;
+        out->states[s].fitted_residuals = found[s].fit->nresidual;
+        STATE_COPY(&out->states[s], part);
+        out->shapes_fitted |= part->shapes_fitted;
+        for (int i = 0; i < part->nweighed; i++) {
+            out->weighed[out->nweighed] = part->weighed[i];
+            out->weighed[out->nweighed++].state = state->name;
+        }
     }
     out->objective = fit->objective;
     out->chi2 = fit->chi2;
     out->fit = fit;
-    out->noise = list[0].noise;
-    out->geometry = list[0].geometry;
     out->shapes = NULL;
     out->nco_matrix = out->mac_matrix = NULL;
     out->matrix_rows = out->matrix_columns = NULL;
     out->nmatrix_rows = out->nmatrix_columns = 0;
-    out->nstates = states->nstate;
-    out->states = list;
-    out->nweighed = 0;
-    if (!(out->weighed = POOL_ARRAY(pool, rotid_weighed, 2 * (size_t)states->nstate)))
-        return NULL;
-    for (int s = 0; s < states->nstate; s++) {
-        int count;
-        const rotid_weighed *own = result_weighed(pool, &states->state[s].job, states->state[s].name, &found[s].mass, &count);
-        if (!own)
-            return NULL;
-        for (int i = 0; i < count; i++)
-            out->weighed[out->nweighed++] = own[i];
-    }
-    return join_modes(pool, found, fit, out) ? NULL : out;
+    return pool->out_of_memory || join_modes(pool, found, fit, out) ? NULL : out;
 }
 
-rotid_weighed *result_weighed(struct pool *pool, const struct job *job, const char *state, const struct mass_properties *mass,
-                              int *count)
+rotid_weighed *result_weighed(struct pool *pool, const struct job *job, const struct mass_properties *mass, int *count)
 {
     const struct weighed *w = &job->measurement.weighed;
     rotid_weighed *list = POOL_ARRAY(pool, rotid_weighed, 2);
@@ -234,7 +217,6 @@ rotid_weighed *result_weighed(struct pool *pool, const struct job *job, const ch
         if (std > 0)
             list[(*count)++] = (rotid_weighed){.quantity = i ? "centre" : "mass",
                                                .unit = i ? "m" : "kg",
-                                               .state = state,
                                                .measured = measured,
                                                .std = std,
                                                .predicted = predicted,
@@ -260,9 +242,9 @@ rotid_noise *result_noise(struct pool *pool, const struct job *job, const rotid_
     double *work = POOL_ARRAY(pool, double, components + job->measurement.nmode);
     rotid_noise *out = work ? POOL_NEW(pool, rotid_noise) : NULL;
     if (out)
-        *out = (rotid_noise){
-            .frequency = typical(job->measurement.nmode, job->measurement.frequency_hz, job->measurement.frequency_std, work),
-            .shape = typical(components, job->measurement.shape, job->measurement.shape_std, work),
-            .intervals_from = fit->variance_from_residuals ? "residuals" : "noise"};
+        *out = (rotid_noise){.frequency = typical(job->measurement.frequency_std ? job->measurement.nmode : 0,
+                                                  job->measurement.frequency_hz, job->measurement.frequency_std, work),
+                             .shape = typical(components, job->measurement.shape, job->measurement.shape_std, work),
+                             .intervals_from = fit->variance_from_residuals ? "residuals" : "noise"};
     return out;
 }

@@ -26,7 +26,7 @@ static rotid_check *make_check(struct call *call, const struct job *job, const s
                      .functional = functional_words[job->options.fit.functional],
                      .reduction = reduction_words[job->options.fit.reduction],
                      .geometry = result_geometry(pool, &job->rotor, s->model)};
-    if (!(r.weighed = result_weighed(pool, job, NULL, &mass, &r.nweighed)))
+    if (!(r.weighed = result_weighed(pool, job, &mass, &r.nweighed)))
         return NULL;
     meridian_count(s->model, &r.nodes, &r.elements);
     r.nsensors = r.geometry ? r.geometry->nsensors : 0;

@@ -267,9 +267,7 @@ static int identify(struct work *w)
     if (!status && w->fit->status == ROTID_STOP_CANCELLED)
         status = ROTID_STOP_CANCELLED;
     if (!status)
-        status = add_fit(w, &joined,
-                         joined.nstate > 1 ? result_identification_states(&w->pool, &joined, found, w->fit)
-                                           : result_identification(&w->pool, &joined.state->job, joined.bounds, found));
+        status = add_fit(w, &joined, result_identification(&w->pool, &joined, found, w->fit));
     if (!status && !(plan->spread > 0)) /* the way from each start is what such a plan is about */
         w->run.fit->history = NULL;
     if (!status && !plan->baseline)
