@@ -138,8 +138,8 @@ UNIT_TEST(many_decks_stand_beside_each_other)
     assert_int_equal(page_run("cd %s; %s study%s broken.inp -o decks.jsonl --quiet", page_path(""), ROTID_PROGRAM, list), 1);
     const char *html = page_made("decks.jsonl");
     page_says(html, "class=\"answer care\"");
-    page_says(html, "6 identifications: 1 failed, 0 did not converge.");
-    page_says(html, "<p>1 failed: ");
+    page_says(html, "6 of 6 runs of identify in 6 cells, 1 failed, 0 did not converge");
+    page_says(html, "<li>1 failed, the first is run ");
     page_says(html, "deck3.inp");
 }
 

@@ -187,7 +187,7 @@ UNIT_TEST(a_run_that_takes_too_long_has_failed)
     (void)bench_write("slow.plan", SLOW);
     bench_delete("late.jsonl");
     bench_says("study slow.plan -o late.jsonl --timeout 0.05", 1, "no result within 0.05 s (--timeout)");
-    bench_says("study --summary late.jsonl", 1, "4 of 4 runs of diagnose, 4 failed");
+    bench_says("study --summary late.jsonl", 1, "4 of 4 runs of diagnose in 1 cell, 4 failed");
 }
 
 UNIT_TEST(an_interruption_keeps_what_is_finished)
@@ -274,7 +274,7 @@ UNIT_TEST(a_mended_deck_runs_again)
     bench_says("study first.inp second.inp -o mended.jsonl", 1, "1 failed");
     char *before = bench_read("mended.jsonl");
     (void)bench_write("second.inp", BENCH_DECK);
-    bench_says("study first.inp second.inp -o mended.jsonl --json m.json", 0, "2 of 2 runs of identify, 0 failed");
+    bench_says("study first.inp second.inp -o mended.jsonl --json m.json", 0, "2 of 2 runs of identify in 2 cells, 0 failed");
     char *after = bench_read("mended.jsonl"), *json = bench_read("m.json");
     const char *run = strstr(before, "{\"run\":0");
     size_t length = strcspn(run, "\n") + 1;
@@ -377,7 +377,7 @@ UNIT_TEST(summary_and_runs_are_tables_for_a_spreadsheet)
 
 UNIT_TEST(the_summary_is_a_table_or_json)
 {
-    bench_says("study --summary one.jsonl", 0, "study a.plan: 120 of 120 runs of identify, 0 failed");
+    bench_says("study --summary one.jsonl", 0, "a.plan: 120 of 120 runs of identify in ");
     bench_says("study --summary one.jsonl", 0, "core.E");
     struct bench_outcome outcome = bench_run("study --summary one.jsonl --json -");
     cJSON *json = cJSON_Parse(outcome.out), *same;

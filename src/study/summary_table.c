@@ -211,30 +211,71 @@ void table_add_run(struct table *table, const struct study_run *run)
     }
 }
 
+/* Over all cells that have them: intervals that hold the truth, starts that came to the best. */
+struct shares {
+    double intervals, held, starts, reached, good, scored, false_alarm, not_converged;
+};
+
+static struct shares add_up(const struct study_result *s)
+{
+    struct shares sum = {0};
+    for (int i = 0; i < s->ncells; i++) {
+        const struct study_cell_result *cell = &s->cells[i];
+        for (int p = 0; p < cell->nparameters; p++)
+            if (isfinite(cell->parameters[p].coverage95)) {
+                sum.intervals += cell->parameters[p].intervals;
+                sum.held += cell->parameters[p].intervals * cell->parameters[p].coverage95;
+            }
+        if (cell->reached_best != ROTID_NONE) {
+            sum.starts += cell->runs;
+            sum.reached += cell->reached_best;
+        }
+        sum.not_converged += cell->not_converged;
+        const int *scores = summary_is_scored(cell) ? cell->diagnoses->scores : NULL;
+        for (int k = 0; k < STUDY_SCORES && scores; k++) {
+            sum.scored += scores[k];
+            sum.good += k == 0 || k == 2 || k == 3 ? scores[k] : 0;
+            sum.false_alarm += k == 1 || k == 7 ? scores[k] : 0;
+        }
+    }
+    return sum;
+}
+
+struct reasons sentences_of_study(struct pool *pool, const struct study_result *s)
+{
+    const struct shares sum = add_up(s);
+    struct reasons said = {.pool = pool};
+    reasons_add(
+        &said, s->done < s->runs || s->failed > 0 || sum.not_converged > 0 ? TONE_CARE : TONE_NONE,
+        "%s: %d of %d runs of %s%s in %d %s, %d failed, %.0f did not converge%s.", s->plan ? s->plan : "Decks as they stand",
+        s->done, s->runs, s->studies, s->shards > 1 ? pool_text(pool, ", shard %d of %d,", s->shard, s->shards) : "", s->ncells,
+        human_plural(s->ncells, "cell", "cells"), s->failed, sum.not_converged,
+        s->done > 0 && isfinite(s->seconds) ? pool_text(pool, "; %s a run", human_seconds(pool, s->seconds / s->done)) : "");
+    if (sum.starts > 0)
+        reasons_add(&said, TONE_NONE, "Of %.0f iterations from different starts %.0f end at the least functional of their cell.",
+                    sum.starts, sum.reached);
+    if (sum.intervals > 0)
+        reasons_add(&said, TONE_NONE, "Of %.0f 95\xc2\xa0%% intervals %s\xc2\xa0%% hold the truth.", sum.intervals,
+                    human_fixed(pool, 100 * sum.held / sum.intervals, 1));
+    if (sum.scored > 0)
+        reasons_add(&said, TONE_NONE,
+                    "Of %.0f diagnoses %.0f are right, in the set, or correctly without a cause; %.0f name something else.",
+                    sum.scored, sum.good, sum.false_alarm);
+    for (int i = 0; i < s->nerrors && i < MOST_ERROR; i++)
+        reasons_add(&said, TONE_NONE, "%d failed, the first is run %d: %s", s->errors[i].runs, s->errors[i].first_run,
+                    s->errors[i].error);
+    if (s->nerrors > MOST_ERROR)
+        reasons_add(&said, TONE_NONE, "%d other reasons", s->nerrors - MOST_ERROR);
+    if (s->done < s->runs)
+        reasons_add(&said, TONE_NONE, "%d runs are missing", s->missing);
+    return said;
+}
+
 void screen_study(const struct screen *to, const struct study_result *s)
 {
-    FILE *out = to->out;
-    (void)fputs("study ", out);
-    name_cell(out, 0, s->plan ? s->plan : "of decks");
-    (void)fprintf(out, ": %d of %d runs of ", s->done, s->runs);
-    name_cell(out, 0, s->studies);
-    if (s->shards > 1)
-        (void)fprintf(out, ", shard %d of %d", s->shard, s->shards);
-    (void)fprintf(out, ", %d failed", s->failed);
-    if (s->done)
-        (void)fprintf(out, ", %.3g s each", s->seconds / (double)s->done);
-    (void)fputc('\n', out);
+    const struct reasons said = sentences_of_study(to->pool, s);
+    screen_reasons(to, &said);
     screen_table(to, table_of_cells(to->pool, s));
     screen_table(to, table_of_cell_parameters(to->pool, s));
     screen_table(to, table_of_cell_diagnoses(to->pool, s));
-    for (int i = 0; i < s->nerrors && i < MOST_ERROR; i++) {
-        char head[64];
-        (void)snprintf(head, sizeof head, "%sfailed %d, first run %d: ", i ? "" : "\n", s->errors[i].runs,
-                       s->errors[i].first_run);
-        wrap_text(out, 4, to->width, head, s->errors[i].error);
-    }
-    if (s->nerrors > MOST_ERROR)
-        (void)fprintf(out, "and %d other reasons\n", s->nerrors - MOST_ERROR);
-    if (s->done < s->runs)
-        (void)fprintf(out, "\n%d runs are missing\n", s->missing);
 }
