@@ -512,14 +512,13 @@ UNIT_TEST(a_named_cause_is_read_from_top_to_bottom)
     static const char *const parts[] = {"A rotor of three groups",
                                         "VERDICT  NAMED",
                                         "The fit as the deck states it (HYBRID, reduction GUYAN",
-                                        "Parameters of the extended model, 95 % intervals",
+                                        "Parameters, 95 % intervals",
                                         "What is wrong with the measurement and the numbers",
                                         "sensor_gain: sensor 23",
                                         "guyan_reduction: the condensation",
                                         "What is wrong: full model, likelihood, chi2 300 with 202 degrees of freedom",
                                         "Causes one by one",
                                         "Quality before and after",
-                                        "Parameters before and after",
                                         "Detection limits",
                                         "seed 7, 4 threads"};
     fill_named();
@@ -533,7 +532,8 @@ UNIT_TEST(a_named_cause_is_read_from_top_to_bottom)
     assert_says("  The extended model is adequate.\n");
     assert_says("    named: flexibility 2.13e-10 rad/(N.m) (95 %: 1.92e-10 to 2.34e-10)");
     assert_says("    possible (67 %): depth 0.42");
-    assert_says("core.E             GPa        116.78  114.44  119.11      114.60      112.31      116.89        -1.9\n");
+    assert_says("core.E             GPa            116.78      114.44      119.11  the model of the deck\n");
+    assert_says("found.flexibility  rad/(N.m)  2.1300e-10  2.0874e-10  2.1726e-10  the extended model\n");
     assert_says("joint       core|right  flexibility  rad/(N.m)   6.4e-11         -         -\n");
     assert_says("added_mass              mass         kg             0.11      2.03       9.6\n");
     assert_says("stiffness   right       factor       1                 -         -         -  at no physical size\n");
@@ -555,7 +555,8 @@ UNIT_TEST(the_parameters_stand_at_the_top)
     s.d.result.nhidden = 2;
     s.d.result.hidden = hidden;
     show(0, 100);
-    assert_order("Parameters of the extended model, 95 % intervals\n", "core.E     GPa   114.60      112.31      116.89\n");
+    assert_order("Parameters, 95 % intervals\n",
+                 "core.E             GPa            114.60      112.31      116.89  the extended model\n");
     assert_order("Possible bias: causes below their detection limits",
                  "core.E     up to 2 %       added_mass         mass 0.28 kg   0.61\n"
                  "core.G     more than 50 %  tie_shear of ties  there or not      -\n");
@@ -579,8 +580,7 @@ UNIT_TEST(the_parameters_stand_at_the_top)
     s.d.extended.fit = NULL;
     s.d.result.verdict.kind = ROTID_AMBIGUOUS;
     show(0, 100);
-    assert_order("Parameters of the model of the deck, 95 % intervals\n",
-                 "core.E     GPa   104.00       98.00      110.00  averaged over the explanations\n");
+    assert_order("Parameters, 95 % intervals\n", "core.E     GPa   104.00       98.00      110.00  the average of all\n");
     assert_says("core.E     GPa   100.00       95.00      105.00  joint between core and right\n");
     assert_says("core.E     GPa   101.00       96.00      106.00  joint between core and right with ");
     show(1, 100);

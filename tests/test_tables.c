@@ -178,7 +178,7 @@ UNIT_TEST(what_is_not_determined_or_at_a_bound_is_said)
     assert_int_equal(fclose(file), 0);
     (void)snprintf(arguments, sizeof arguments, "identify %s --no-baseline", deck);
     assert_int_equal(run(arguments), 1); /* a bar this slender says nothing about shear */
-    assert_non_null(strstr(line_with("bar.G  "), "not determined by these data\n"));
+    assert_non_null(strstr(line_with("bar.G  "), "not determined\n"));
     assert_null(strstr(line_with("bar.E  "), "  200  not"));
     (void)snprintf(arguments, sizeof arguments, "sensitivity %s --quiet", deck);
     assert_int_equal(run(arguments), 0);

@@ -93,15 +93,21 @@ struct table *table_of_candidates(struct pool *pool, const rotid_diagnosis *d, i
     return table;
 }
 
-static void value_row(struct table *table, const char *name, const char *by, const rotid_fitted_parameter *is)
+static void value_row(struct table *table, const char *name, const char *by, double value, const double ci[2], const char *unit,
+                      const char *remark)
 {
-    text_column(table, "parameter", MAY_BE_CUT, name);
-    unit_column(table, is->value, (is->ci95[1] - is->ci95[0]) / 2, is->unit);
-    number_column(table, "value", ROW_UNIT, SHOW_ROW, is->value);
-    number_column(table, "lower 95 %", ROW_UNIT, SHOW_ROW, is->ci95[0]);
-    number_column(table, "upper 95 %", ROW_UNIT, SHOW_ROW, is->ci95[1]);
-    text_column(table, "remark", SHOW_TEXT, table ? parameter_remark(table->pool, is) : "");
+    text_column(table, "parameter", SHOW_TEXT, name);
+    unit_column(table, value, (ci[1] - ci[0]) / 2, unit);
+    number_column(table, "value", ROW_UNIT, SHOW_ROW, value);
+    number_column(table, "lower 95 %", ROW_UNIT, SHOW_ROW, ci[0]);
+    number_column(table, "upper 95 %", ROW_UNIT, SHOW_ROW, ci[1]);
+    text_column(table, "remark", SHOW_TEXT, remark);
     text_column(table, "if it is", MAY_BE_CUT, by);
+}
+
+static void fitted_row(struct table *table, const char *by, const rotid_fitted_parameter *is)
+{
+    value_row(table, is->name, by, is->value, is->ci95, is->unit, table ? parameter_remark(table->pool, is) : "");
 }
 
 /* Two digits of a size: more is not known of one that would have shown. */
@@ -178,39 +184,29 @@ struct table *table_of_explanations(struct pool *pool, const rotid_diagnosis *d,
 struct table *table_of_verdict_values(struct pool *pool, const rotid_diagnosis *d, int all)
 {
     const rotid_verdict *v = &d->verdict;
-    const rotid_identification *fit = d->extended ? d->extended : d->base;
-    struct table *table = table_open(pool, d->extended ? "Parameters of the extended model, 95 % intervals"
-                                                       : "Parameters of the model of the deck, 95 % intervals");
+    struct table *table = table_open(pool, "Parameters, 95 % intervals");
     for (int p = 0; p < d->base->nparameters; p++) {
-        const rotid_fitted_parameter *value = fit_parameter(fit, d->base->parameters[p].name);
-        int shown = 0, left = 0, averaged = p < d->nparameters;
-        if (averaged) {
-            const rotid_averaged_parameter *mean = &d->parameters[p];
-            value_row(table, mean->name, "averaged over the explanations",
-                      &(rotid_fitted_parameter){
-                          .value = mean->value, .unit = mean->unit, .ci95 = {mean->ci95[0], mean->ci95[1]}, .identifiable = 1});
-        }
-        if (value)
-            value_row(table, value->name, averaged ? d->extended ? "the extended model" : "the model of the deck" : "", value);
+        const rotid_fitted_parameter *base = &d->base->parameters[p], *extended = fit_parameter(d->extended, base->name);
+        int of = 0; /* explanations that say it */
+        if (p < d->nparameters)
+            value_row(table, d->parameters[p].name, "the average of all", d->parameters[p].value, d->parameters[p].ci95,
+                      d->parameters[p].unit, "");
+        if (extended)
+            fitted_row(table, "the extended model", extended);
+        fitted_row(table, "the model of the deck", base);
         for (int i = 0; i < v->nexplanations && v->kind == ROTID_AMBIGUOUS; i++) {
             const rotid_cause_value *by = p < v->explanations[i].nidentified ? &v->explanations[i].identified[p] : NULL;
-            if (!by)
-                continue;
-            if (shown == LISTED && !all) {
-                left++;
-                continue;
-            }
-            shown++;
-            value_row(table, by->name, explanation_of(pool, &v->explanations[i]),
-                      &(rotid_fitted_parameter){.value = by->value,
-                                                .unit = by->unit,
-                                                .ci95 = {by->ci95[0], by->ci95[1]},
-                                                .at_bound = !isfinite(by->ci95[0]),
-                                                .identifiable = 1});
+            of += by != NULL;
+            if (by && (all || of <= LISTED))
+                value_row(table, by->name, explanation_of(pool, &v->explanations[i]), by->value, by->ci95, by->unit,
+                          isfinite(by->ci95[0]) ? "" : "at its bound");
         }
-        if (left)
-            table_note(table, "%d more with --verbose", left);
+        if (of > LISTED && !all)
+            table_note(table, "%d more with --verbose", of - LISTED);
     }
+    for (int p = 0; d->extended && p < d->extended->nparameters; p++)
+        if (!fit_parameter(d->base, d->extended->parameters[p].name))
+            fitted_row(table, "the extended model", &d->extended->parameters[p]);
     return table;
 }
 
@@ -239,25 +235,6 @@ struct table *table_of_quality(struct pool *pool, const rotid_diagnosis *d)
         number_column(table, d->extended ? "before" : "value", NULL, SHOW_DIGITS(3), rows[i].factor * rows[i].pair->before);
         if (d->extended)
             number_column(table, "after", NULL, SHOW_DIGITS(3), rows[i].factor * rows[i].pair->after);
-    }
-    return table;
-}
-
-static struct table *table_of_change(struct pool *pool, const rotid_diagnosis *d)
-{
-    struct table *table = table_open(pool, "Parameters before and after");
-    for (int i = 0; i < d->gain.nparameters && d->extended; i++) {
-        const rotid_changed_parameter *p = &d->gain.parameters[i];
-        const double *ci = isfinite(p->after) ? p->after_ci95 : p->before_ci95;
-        text_column(table, "parameter", MAY_BE_CUT, p->name);
-        unit_column(table, isfinite(p->after) ? p->after : p->before, (ci[1] - ci[0]) / 2, p->unit);
-        number_column(table, "before", ROW_UNIT, SHOW_ROW, p->before);
-        number_column(table, "lower", ROW_UNIT, SHOW_ROW, p->before_ci95[0]);
-        number_column(table, "upper", ROW_UNIT, SHOW_ROW, p->before_ci95[1]);
-        number_column(table, "after", ROW_UNIT, SHOW_ROW, p->after);
-        number_column(table, "lower", ROW_UNIT, SHOW_ROW, p->after_ci95[0]);
-        number_column(table, "upper", ROW_UNIT, SHOW_ROW, p->after_ci95[1]);
-        number_column(table, "change", "%", SHOW_SIGNED(1), 100 * (p->after / p->before - 1));
     }
     return table;
 }
@@ -454,10 +431,8 @@ void screen_diagnose(const struct screen *to, const struct result *result)
     }
     for (int i = 0; i < d->nrounds; i++)
         screen_table(to, table_of_candidates(to->pool, d, i, to->verbose));
-    if (d->base && v->sentence) { /* else interrupted before it was measured */
+    if (d->base && v->sentence) /* else interrupted before it was measured */
         screen_table(to, table_of_quality(to->pool, d));
-        screen_table(to, table_of_change(to->pool, d));
-    }
     screen_table(to, table_of_detectable(to->pool, d->ndetectable, d->detectable));
     print_foot(to, &result->head, d);
 }

@@ -36,7 +36,7 @@ const char *parameter_remark(struct pool *pool, const rotid_fitted_parameter *is
 {
     const double *ci = is->ci95;
     return is->at_bound        ? "at its bound"
-           : !is->identifiable ? "not determined by these data"
+           : !is->identifiable ? "not determined"
            : !isfinite(ci[0])  ? "no interval can be stated"
            : interval_is_wide(is->value, ci[0], ci[1])
                ? pool_text(pool, "known to %s only", percent_text(interval_half_percent(is->value, ci[0], ci[1]), (char[32]){""}))
