@@ -44,30 +44,13 @@ int call_open(struct call *call, const rotid_environment *given, char *failure, 
     return status;
 }
 
-static void explain(const struct call *call, char *failure)
-{
-    size_t length = 0;
-    for (size_t i = 0; i < call->notes.count; i++) {
-        const rotid_message *m = &call->notes.item[i];
-        char place[64];
-        if (m->severity != SEVERITY_ERROR)
-            continue;
-        length = failure_append(failure, length, length ? "; " : "");
-        if (m->file) {
-            (void)snprintf(place, sizeof place, ":%d:%d: ", m->line, m->column);
-            length = failure_append(failure, failure_append(failure, length, m->file), place);
-        }
-        length = failure_append(failure, length, m->text);
-    }
-}
-
 int call_close(struct call *call, int status)
 {
     char *failure = call->entry.failure;
     if (call->job && status < 0)
         check_sections(call->job, status, &call->notes);
     if (failure && !*failure && status < 0)
-        explain(call, failure);
+        (void)failure_append(failure, 0, message_errors(&call->notes, &call->entry.scratch));
     if (call->entered)
         host_leave_locale(&call->locale);
     return entry_close(&call->entry, status);

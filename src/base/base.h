@@ -190,6 +190,8 @@ int message_refuse(struct message_list *list, int status, const char *file, int 
     __attribute__((format(printf, 6, 7)));
 /* The texts of the warnings (pool) and how many there are; NULL where memory is out. */
 const char **message_warnings(const struct message_list *list, struct pool *pool, int *count);
+/* The errors with their places, "; " between them; "" of none. */
+const char *message_errors(const struct message_list *list, struct pool *pool);
 
 #define PI     3.14159265358979324
 #define TWO_PI 6.28318530717958648

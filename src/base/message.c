@@ -54,3 +54,16 @@ const char **message_warnings(const struct message_list *list, struct pool *pool
             text[(*count)++] = list->item[i].text;
     return text;
 }
+
+const char *message_errors(const struct message_list *list, struct pool *pool)
+{
+    const char *text = "";
+    for (size_t i = 0; i < list->count; i++) {
+        const rotid_message *m = &list->item[i];
+        if (m->severity != SEVERITY_ERROR)
+            continue;
+        const char *place = m->file ? pool_text(pool, "%s:%d:%d: ", m->file, m->line, m->column) : "";
+        text = pool_text(pool, "%s%s%s%s", text, *text ? "; " : "", place, m->text);
+    }
+    return text;
+}

@@ -32,17 +32,18 @@ static void section_identify(struct document *document, const struct result *res
     document_table(document, table_of_minimisers(document->pool, fit));
 }
 
+static void add_shown(struct document *document, const struct shown *shown)
+{
+    document_list(document, shown->said.count, shown->said.text);
+    for (int i = 0; shown->table[i]; i++)
+        document_table(document, shown->table[i]);
+}
+
 static void section_modes(struct document *document, const struct result *result)
 {
+    const struct shown shown = shown_of_modes(document->pool, result->modes);
     document_section(document, "model-modes", "Modes of the model", "modes");
-    document_table(document, table_of_model_modes(document->pool, result->modes));
-    if (!result->modes->beside)
-        return;
-    document_section(document, "beside", "The beam beside the solid", NULL);
-    if (result->modes->beside->sentence)
-        document_paragraph(document, "In short, %s.", result->modes->beside->sentence);
-    document_table(document, table_of_beside_modes(document->pool, result->modes->beside));
-    document_table(document, table_of_beside_moduli(document->pool, result->modes->beside));
+    add_shown(document, &shown);
 }
 
 static void section_sensitivity(struct document *document, const struct result *result)
@@ -95,17 +96,9 @@ const char *answer_of_speeds(struct pool *pool, const rotid_speeds *s)
 
 static void section_speeds(struct document *document, const struct result *result)
 {
-    const rotid_speeds *s = result->speeds;
-    struct pool *pool = document->pool;
-    document_section(document, "operation", "The machine in operation", NULL);
-    document_paragraph(document, "%s.", speeds_stability(pool, s));
-    document_figures(document, "speeds");
-    document_table(document, table_of_critical_speeds(pool, s));
-    document_table(document, table_of_stability(pool, s));
-    document_table(document, table_of_runup(pool, s->nrunup, s->runup));
-    document_table(document, table_of_torsion(pool, s));
-    document_table(document, table_of_shares(pool, s));
-    document_table(document, table_of_sensitivities(pool, s));
+    const struct shown shown = shown_of_speeds(document->pool, result->speeds, 1);
+    document_section(document, "operation", "The machine in operation", "speeds");
+    add_shown(document, &shown);
 }
 
 /* ---- modal analysis */
@@ -166,24 +159,11 @@ static void section_ema(struct document *document, const struct result *result)
 
 static void section_suggest(struct document *document, const struct result *result)
 {
-    const rotid_suggestion *s = result->suggest;
-    struct pool *pool = document->pool;
-    if (s->ntests) {
-        document_section(document, "tests", "Tests that could be made next", NULL);
-        if (s->verdict)
-            document_paragraph(document, "The diagnosis: %s", s->verdict);
-        document_figures(document, "tests");
-        document_table(document, table_of_tests(pool, s));
-        document_table(document, table_of_rivals(pool, s));
-    }
-    if (isfinite(s->speed_rpm)) {
-        document_section(document, "tests", "Tests at rest for a critical speed", NULL);
-        document_table(document, table_of_speed_tests(pool, s));
-        return;
-    }
-    document_section(document, "sensors", "Sensors and modes", "sensors");
-    document_table(document, table_of_plans(pool, s, 0));
-    document_table(document, table_of_expected(pool, s));
+    const struct shown shown = shown_of_suggestion(document->pool, result->suggest, 0);
+    document_section(document, "tests", "What could be measured next", result->suggest->ntests ? "tests" : NULL);
+    if (!isfinite(result->suggest->speed_rpm))
+        document_figures(document, "sensors");
+    add_shown(document, &shown);
 }
 
 /* ---- a study */
@@ -192,7 +172,7 @@ static void answer_study(struct document *document, const struct result *result)
 {
     struct pool *pool = document->pool;
     const struct study_result *s = result->study;
-    const struct reasons said = sentences_of_study(pool, s);
+    const struct reasons said = shown_of_study(pool, s).said;
     if (s->plan)
         document->title = pool_text(pool, "Study %s", strrchr(s->plan, '/') ? strrchr(s->plan, '/') + 1 : s->plan);
     document->now.tone = said.tone;
@@ -204,20 +184,16 @@ static void answer_study(struct document *document, const struct result *result)
 static void section_study(struct document *document, const struct result *result)
 {
     const struct study_result *s = result->study;
-    struct pool *pool = document->pool;
-    const struct reasons said = sentences_of_study(pool, s);
+    const struct shown shown = shown_of_study(document->pool, s);
     document_section(document, "study", "The study", NULL);
-    document_list(document, said.count, said.text);
+    document_figures(document, "study");
     if (!cJSON_IsArray(result->json) && s->done > 0)
         document_paragraph(
             document,
             "%s is a summary. The file of results itself (.jsonl) holds the single runs, of which more figures are "
             "made: starts and ends, what depends on the number of modes, errors of the runs.",
             result->file);
-    document_figures(document, "study");
-    document_table(document, table_of_cells(pool, s));
-    document_table(document, table_of_cell_parameters(pool, s));
-    document_table(document, table_of_cell_diagnoses(pool, s));
+    add_shown(document, &shown);
 }
 
 /* ---- basis and provenance */

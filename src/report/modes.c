@@ -178,7 +178,7 @@ struct table *table_of_model_modes(struct pool *pool, const rotid_spectrum *spec
     return table;
 }
 
-struct table *table_of_beside_modes(struct pool *pool, const rotid_beam_beside_solid *beside)
+static struct table *table_of_beside_modes(struct pool *pool, const rotid_beam_beside_solid *beside)
 {
     struct table *table =
         table_open(pool, "Modes of the rotor as a beam and as a solid: the difference is beam over solid, less one");
@@ -198,7 +198,7 @@ struct table *table_of_beside_modes(struct pool *pool, const rotid_beam_beside_s
     return table;
 }
 
-struct table *table_of_beside_moduli(struct pool *pool, const rotid_beam_beside_solid *beside)
+static struct table *table_of_beside_moduli(struct pool *pool, const rotid_beam_beside_solid *beside)
 {
     struct table *table = table_open(pool, "Moduli of the beam whose frequencies are nearest to those of the solid");
     for (int p = 0; p < beside->nmoduli; p++) {
@@ -225,25 +225,32 @@ struct table *table_of_shapes(struct pool *pool, const struct rotor *rotor, cons
     return table;
 }
 
+struct shown shown_of_modes(struct pool *pool, const rotid_spectrum *s)
+{
+    struct shown shown = {.said.pool = pool, .table = {table_of_model_modes(pool, s)}};
+    const char *hz = "";
+    for (int i = 0; i < s->nrigid_hz; i++)
+        hz = pool_text(pool, "%s%s%s", hz, i ? ", " : "", human_value(pool, s->rigid_hz[i], "Hz"));
+    if (is_free(s->nrigid_hz, s->rigid_hz))
+        reasons_add(&shown.said, TONE_NONE, "rigid-body modes: %d (the rotor is free)", s->nrigid_hz);
+    else if (s->nrigid_hz)
+        reasons_add(&shown.said, TONE_NONE, "rotor on its supports: %s", hz);
+    if (s->beside) {
+        shown.table[1] = table_of_beside_modes(pool, s->beside);
+        shown.table[2] = table_of_beside_moduli(pool, s->beside);
+        if (s->beside->sentence)
+            reasons_add(&shown.said, TONE_NONE, "The beam beside the solid: %s.", s->beside->sentence);
+    }
+    return shown;
+}
+
 static void print_modes(const struct screen *to, const struct result *result, const struct job *job)
 {
-    const rotid_spectrum *s = result->modes;
-    const struct human_unit hz = human_unit(1, "Hz");
+    const struct shown shown = shown_of_modes(to->pool, result->modes);
     (void)job;
-    int free = is_free(s->nrigid_hz, s->rigid_hz);
-    if (free)
-        (void)fprintf(to->out, "rigid-body modes: %d (the rotor is free)\n", s->nrigid_hz);
-    for (int i = 0; i < s->nrigid_hz && !free; i++)
-        (void)fprintf(to->out, "rotor on its supports: %.*f %s\n", hz.factor < 1 ? 7 : 4, s->rigid_hz[i] * hz.factor, hz.text);
-    screen_table(to, table_of_model_modes(to->pool, s));
-    if (s->beside) {
-        screen_table(to, table_of_beside_modes(to->pool, s->beside));
-        screen_table(to, table_of_beside_moduli(to->pool, s->beside));
-        if (s->beside->sentence)
-            (void)fprintf(to->out, "\n%s\n", s->beside->sentence);
-    }
+    screen_shown(to, &shown);
     if (to->verbose)
-        screen_table(to, table_of_shapes(to->pool, NULL, s));
+        screen_table(to, table_of_shapes(to->pool, NULL, result->modes));
 }
 
 void screen_modes(const struct screen *to, const struct result *result)

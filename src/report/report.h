@@ -329,19 +329,11 @@ const char *minimisers_sentence(struct pool *pool, const rotid_identification *f
 struct table *table_of_model_modes(struct pool *pool, const rotid_spectrum *spectrum);
 /* The shapes at the sensors, whose ids the rotor has; NULL: they are counted. */
 struct table *table_of_shapes(struct pool *pool, const struct rotor *rotor, const rotid_spectrum *spectrum);
-struct table *table_of_beside_modes(struct pool *pool, const rotid_beam_beside_solid *beside);
-struct table *table_of_beside_moduli(struct pool *pool, const rotid_beam_beside_solid *beside);
 struct table *table_of_sensitivity(struct pool *pool, const struct sensitivity *sensitivity);
 /* "At core.E = 60 GPa, reduction GUYAN." */
 const char *sensitivity_in_words(struct pool *pool, const struct sensitivity *sensitivity);
 struct table *table_of_transfer_modes(struct pool *pool, const struct transfer_result *of);
 struct table *table_of_test_modes(struct pool *pool, const struct ema_result *ema);
-struct table *table_of_speed_tests(struct pool *pool, const rotid_suggestion *s);
-/* all: places of plans of many sensors too */
-struct table *table_of_plans(struct pool *pool, const rotid_suggestion *s, int all);
-struct table *table_of_expected(struct pool *pool, const rotid_suggestion *s);
-struct table *table_of_rivals(struct pool *pool, const rotid_suggestion *s);
-struct table *table_of_tests(struct pool *pool, const rotid_suggestion *s);
 struct table *table_of_quality(struct pool *pool, const rotid_diagnosis *d);
 /* What may hide in the parameters of a fit. */
 struct table *table_of_hidden(struct pool *pool, const rotid_identification *fit, int count, const rotid_hidden *hidden);
@@ -356,20 +348,12 @@ struct table *table_of_detectable(struct pool *pool, int count, const rotid_dete
 const char *candidate_fate(struct pool *pool, const rotid_diagnosis *d, const rotid_candidate *candidate);
 /* A sentence for each doubtful mode and channel, or that there is none; NULL where memory is out. */
 const char **ema_doubts(struct pool *pool, const struct ema_result *ema, int *count);
-struct table *table_of_critical_speeds(struct pool *pool, const rotid_speeds *speeds);
-struct table *table_of_torsion(struct pool *pool, const rotid_speeds *s);
 struct table *table_of_weighed(struct pool *pool, int count, const rotid_weighed *list);
 struct table *table_of_runup(struct pool *pool, int count, const rotid_runup_speed *list);
-struct table *table_of_shares(struct pool *pool, const rotid_speeds *speeds);
-struct table *table_of_sensitivities(struct pool *pool, const rotid_speeds *speeds);
-struct table *table_of_stability(struct pool *pool, const rotid_speeds *speeds);
 struct table *table_of_campbell(struct pool *pool, const rotid_speeds *speeds);
 struct table *table_of_response(struct pool *pool, const rotid_speeds *speeds);
 /* A sentence on the margin of a critical speed that has one. NULL where memory is out. */
 const char *speeds_judgement(struct pool *pool, const rotid_critical_speed *critical, const rotid_speeds *speeds);
-
-/* From which speed on the machine is unstable, or that it is stable; NULL without memory. */
-const char *speeds_stability(struct pool *pool, const rotid_speeds *speeds);
 
 /* --------------------------------------------------------------------------------------------------------------- reasons */
 
@@ -403,6 +387,21 @@ const char *hidden_in_words(struct pool *pool, const rotid_identification *fit, 
                             int causes);
 int hidden_is_wide(const rotid_identification *fit, int count, const rotid_hidden *hidden);
 
+/* ---------------------------------------------------------------------------------------------------------------- shown */
+
+/* What a result says in sentences and tables, on the screen and on the page. all: rows and tables that take much room, too. */
+
+#define SHOWN_TABLES 10
+
+struct shown {
+    struct reasons said;
+    struct table *table[SHOWN_TABLES]; /* NULL behind the last; without rows: nothing is shown */
+};
+
+struct shown shown_of_modes(struct pool *pool, const rotid_spectrum *modes);
+struct shown shown_of_speeds(struct pool *pool, const rotid_speeds *speeds, int all);
+struct shown shown_of_suggestion(struct pool *pool, const rotid_suggestion *suggestion, int all);
+
 /* ---------------------------------------------------------------------------------------------------------------- screen */
 
 /* Results on the screen of a person: lines and tables. Where memory is out the pool says so, and what was written is cut. */
@@ -425,6 +424,7 @@ void screen_say(const struct screen *to, const char *format, ...) __attribute__(
 /* Wrapped text behind a head, each reason on its own. */
 void screen_paragraph(const struct screen *to, const char *head, const char *text);
 void screen_reasons(const struct screen *to, const struct reasons *reasons);
+void screen_shown(const struct screen *to, const struct shown *shown);
 /* A table behind an empty line; nothing of one without rows. */
 void screen_table(const struct screen *to, const struct table *table);
 

@@ -4,7 +4,7 @@
 #include "report/report.h"
 #include "running/running.h"
 
-struct table *table_of_critical_speeds(struct pool *pool, const rotid_speeds *s)
+static struct table *table_of_critical_speeds(struct pool *pool, const rotid_speeds *s)
 {
     struct table *t =
         table_open(pool, s->harmonic == 1 ? "CRITICAL SPEEDS: Im lambda = speed"
@@ -41,7 +41,7 @@ struct table *table_of_runup(struct pool *pool, int count, const rotid_runup_spe
     return t;
 }
 
-struct table *table_of_torsion(struct pool *pool, const rotid_speeds *s)
+static struct table *table_of_torsion(struct pool *pool, const rotid_speeds *s)
 {
     struct table *t = table_open(pool, "TORSION: natural frequencies of the machine, and the speeds that excite them");
     for (int i = 0; i < s->ntorsion; i++) {
@@ -59,7 +59,7 @@ struct table *table_of_torsion(struct pool *pool, const rotid_speeds *s)
     return t;
 }
 
-struct table *table_of_shares(struct pool *pool, const rotid_speeds *s)
+static struct table *table_of_shares(struct pool *pool, const rotid_speeds *s)
 {
     struct table *t = table_open(pool, "VARIANCE: share of each source in that of the critical speed");
     for (int i = 0; i < s->ncritical_speeds && s->critical_speeds[i].nvariance_shares; i++) {
@@ -71,7 +71,7 @@ struct table *table_of_shares(struct pool *pool, const rotid_speeds *s)
     return t;
 }
 
-struct table *table_of_sensitivities(struct pool *pool, const rotid_speeds *s)
+static struct table *table_of_sensitivities(struct pool *pool, const rotid_speeds *s)
 {
     struct table *t =
         table_open(pool, "SENSITIVITY: of a critical speed, its log decrement and its peak, by each uncertain number");
@@ -116,25 +116,32 @@ static struct table *table_of_loads(struct pool *pool, const rotid_speeds *s)
     return t;
 }
 
-/* The modes at the highest running speed, or the last speed of the Campbell diagram before it ends. */
-struct table *table_of_stability(struct pool *pool, const rotid_speeds *s)
+static void campbell_rows(struct table *t, const rotid_campbell_speed *at)
 {
+    for (int j = 0; j < at->nmodes; j++) {
+        const rotid_campbell_mode *m = &at->modes[j];
+        number_column(t, "speed", "rpm", SHOW_FIXED(1), at->speed_rpm);
+        number_column(t, "mode", NULL, SHOW_COUNT, m->mode);
+        number_column(t, "frequency", "Hz", SHOW_FIXED(3), m->frequency_hz);
+        number_column(t, "from", "Hz", SHOW_FIXED(3), m->ci95[0]);
+        number_column(t, "to", "Hz", SHOW_FIXED(3), m->ci95[1]);
+        number_column(t, "damping ratio", NULL, SHOW_DIGITS(4) | DETAIL, m->damping_ratio);
+        number_column(t, "log decrement", NULL, SHOW_DIGITS(4), m->log_decrement);
+        number_column(t, "decrement from", NULL, SHOW_DIGITS(4), m->log_decrement_ci95[0]);
+        number_column(t, "decrement to", NULL, SHOW_DIGITS(4), m->log_decrement_ci95[1]);
+        text_column(t, "whirl", SHOW_TEXT, m->whirl);
+    }
+}
+
+/* The modes at the highest running speed, or the last speed of the Campbell diagram before it ends. */
+static struct table *table_of_stability(struct pool *pool, const rotid_speeds *s)
+{
+    struct table *t = table_open(pool, "STABILITY: modes at the highest running speed");
     int at = 0;
     while (at + 1 < s->ncampbell && !(s->campbell[at].speed_rpm >= s->high_rpm))
         at++;
-    struct table *t =
-        table_open(pool, s->ncampbell ? pool_text(pool, "STABILITY: modes at %.0f rpm", s->campbell[at].speed_rpm) : "STABILITY");
-    for (int i = 0; s->ncampbell && i < s->campbell[at].nmodes; i++) {
-        const rotid_campbell_mode *m = &s->campbell[at].modes[i];
-        number_column(t, "mode", NULL, SHOW_COUNT, m->mode);
-        number_column(t, "frequency", "Hz", SHOW_FIXED(2), m->frequency_hz);
-        number_column(t, "from", "Hz", SHOW_FIXED(2), m->ci95[0]);
-        number_column(t, "to", "Hz", SHOW_FIXED(2), m->ci95[1]);
-        text_column(t, "whirl", SHOW_TEXT, m->whirl);
-        number_column(t, "log decrement", NULL, SHOW_DIGITS(3), m->log_decrement);
-        number_column(t, "decrement from", NULL, SHOW_DIGITS(3), m->log_decrement_ci95[0]);
-        number_column(t, "decrement to", NULL, SHOW_DIGITS(3), m->log_decrement_ci95[1]);
-    }
+    if (s->ncampbell)
+        campbell_rows(t, &s->campbell[at]);
     return t;
 }
 
@@ -142,19 +149,7 @@ struct table *table_of_campbell(struct pool *pool, const rotid_speeds *s)
 {
     struct table *t = table_open(pool, "Campbell diagram");
     for (int i = 0; i < s->ncampbell; i++)
-        for (int j = 0; j < s->campbell[i].nmodes; j++) {
-            const rotid_campbell_mode *m = &s->campbell[i].modes[j];
-            number_column(t, "speed", "rpm", SHOW_FIXED(1), s->campbell[i].speed_rpm);
-            number_column(t, "mode", NULL, SHOW_COUNT, m->mode);
-            number_column(t, "frequency", "Hz", SHOW_FIXED(3), m->frequency_hz);
-            number_column(t, "from", "Hz", SHOW_FIXED(3), m->ci95[0]);
-            number_column(t, "to", "Hz", SHOW_FIXED(3), m->ci95[1]);
-            number_column(t, "damping ratio", NULL, SHOW_DIGITS(4), m->damping_ratio);
-            number_column(t, "log decrement", NULL, SHOW_DIGITS(4), m->log_decrement);
-            number_column(t, "decrement from", NULL, SHOW_DIGITS(4), m->log_decrement_ci95[0]);
-            number_column(t, "decrement to", NULL, SHOW_DIGITS(4), m->log_decrement_ci95[1]);
-            text_column(t, "whirl", SHOW_TEXT, m->whirl);
-        }
+        campbell_rows(t, &s->campbell[i]);
     return t;
 }
 
@@ -198,7 +193,8 @@ const char *speeds_judgement(struct pool *pool, const rotid_critical_speed *c, c
                      kept, doubt);
 }
 
-const char *speeds_stability(struct pool *pool, const rotid_speeds *s)
+/* From which speed on the machine is unstable, or that it is stable. */
+static const char *stability(struct pool *pool, const rotid_speeds *s)
 {
     if (!isfinite(s->stability.onset_rpm))
         return pool_text(pool, "No mode is unstable up to %.0f rpm", s->campbell[s->ncampbell - 1].speed_rpm);
@@ -208,22 +204,27 @@ const char *speeds_stability(struct pool *pool, const rotid_speeds *s)
                : pool_text(pool, "Mode %d is unstable from %.1f rpm on", s->stability.mode, s->stability.onset_rpm);
 }
 
-void screen_speeds(const struct screen *to, const struct result *result)
+struct shown shown_of_speeds(struct pool *pool, const rotid_speeds *s, int all)
 {
-    const rotid_speeds *s = result->speeds;
-    screen_heading(to, &result->head);
+    struct shown shown = {.said.pool = pool,
+                          .table = {table_of_critical_speeds(pool, s), table_of_stability(pool, s),
+                                    table_of_runup(pool, s->nrunup, s->runup), table_of_torsion(pool, s),
+                                    table_of_shares(pool, s), table_of_peaks(pool, s), table_of_loads(pool, s),
+                                    all ? table_of_sensitivities(pool, s) : NULL}};
     for (int i = 0; i < s->ncritical_speeds; i++)
         if (isfinite(s->critical_speeds[i].margin.value))
-            screen_say(to, "%s", speeds_judgement(to->pool, &s->critical_speeds[i], s));
+            reasons_add(&shown.said, TONE_NONE, "%s", speeds_judgement(pool, &s->critical_speeds[i], s));
     if (s->ncampbell)
-        screen_say(to, "%s", speeds_stability(to->pool, s));
+        reasons_add(&shown.said, TONE_NONE, "%s", stability(pool, s));
     if (isfinite(s->stability.probability_stable))
-        screen_say(to, "Stable at %.0f rpm with probability %.3f", s->high_rpm, s->stability.probability_stable);
-    screen_table(to, table_of_critical_speeds(to->pool, s));
-    screen_table(to, table_of_stability(to->pool, s));
-    screen_table(to, table_of_runup(to->pool, s->nrunup, s->runup));
-    screen_table(to, table_of_torsion(to->pool, s));
-    screen_table(to, table_of_shares(to->pool, s));
-    screen_table(to, table_of_peaks(to->pool, s));
-    screen_table(to, table_of_loads(to->pool, s));
+        reasons_add(&shown.said, TONE_NONE, "Stable at %.0f rpm with probability %.3f", s->high_rpm,
+                    s->stability.probability_stable);
+    return shown;
+}
+
+void screen_speeds(const struct screen *to, const struct result *result)
+{
+    const struct shown shown = shown_of_speeds(to->pool, result->speeds, to->verbose);
+    screen_heading(to, &result->head);
+    screen_shown(to, &shown);
 }

@@ -21,7 +21,7 @@ static const char *places_of(struct pool *pool, const rotid_sensor_plan *plan)
     return text;
 }
 
-struct table *table_of_plans(struct pool *pool, const rotid_suggestion *s, int all)
+static struct table *table_of_plans(struct pool *pool, const rotid_suggestion *s, int all)
 {
     struct table *table =
         table_open(pool, "Plans of sensors: half-widths of 95 % intervals in per cent of the parameters; places, and "
@@ -43,7 +43,7 @@ struct table *table_of_plans(struct pool *pool, const rotid_suggestion *s, int a
     return table;
 }
 
-struct table *table_of_expected(struct pool *pool, const rotid_suggestion *s)
+static struct table *table_of_expected(struct pool *pool, const rotid_suggestion *s)
 {
     struct table *table = table_open(pool, "Half-widths of the 95 % intervals that are expected, by the number of modes");
     for (int i = 0; i < s->nmodes && s->nparameters; i++) {
@@ -68,7 +68,7 @@ struct table *table_of_expected(struct pool *pool, const rotid_suggestion *s)
     return table;
 }
 
-struct table *table_of_rivals(struct pool *pool, const rotid_suggestion *s)
+static struct table *table_of_rivals(struct pool *pool, const rotid_suggestion *s)
 {
     struct table *table = table_open(pool, "Rivals: what the diagnosis cannot tell apart");
     for (int i = 0; i < s->nrivals; i++) {
@@ -96,7 +96,7 @@ static const rotid_expected_margin *closest(const rotid_suggestion *s, const rot
     return least;
 }
 
-struct table *table_of_tests(struct pool *pool, const rotid_suggestion *s)
+static struct table *table_of_tests(struct pool *pool, const rotid_suggestion *s)
 {
     struct table *table = table_open(pool, "Tests: the chance that the true one of the rivals is named, what it takes");
     int narrow = 0; /* the test after which the first parameter is known best */
@@ -148,7 +148,7 @@ static struct table *table_of_margins(struct pool *pool, const rotid_suggestion 
     return table;
 }
 
-struct table *table_of_speed_tests(struct pool *pool, const rotid_suggestion *s)
+static struct table *table_of_speed_tests(struct pool *pool, const rotid_suggestion *s)
 {
     struct table *table =
         table_open(pool, "Tests at rest: standard deviation of the critical speed that is expected behind each");
@@ -163,26 +163,27 @@ struct table *table_of_speed_tests(struct pool *pool, const rotid_suggestion *s)
     return table;
 }
 
+struct shown shown_of_suggestion(struct pool *pool, const rotid_suggestion *s, int all)
+{
+    int speed = isfinite(s->speed_rpm); /* tests for a critical speed, in place of plans and rivals */
+    struct shown shown = {.said.pool = pool,
+                          .table = {speed ? table_of_speed_tests(pool, s) : table_of_rivals(pool, s), table_of_tests(pool, s),
+                                    table_of_expected(pool, s), table_of_plans(pool, s, all),
+                                    table_of_detectable(pool, s->ndetectable, s->detectable),
+                                    all ? table_of_margins(pool, s) : NULL}};
+    if (s->verdict)
+        reasons_add(&shown.said, TONE_NONE, "diagnosis: %s", s->verdict);
+    if (s->state)
+        reasons_add(&shown.said, TONE_NONE, "state: plans and tests are made like %s", s->state);
+    reasons_add(&shown.said, TONE_NONE, "noise: %s", noise_in_words(pool, &s->noise));
+    return shown;
+}
+
 void screen_suggest(const struct screen *to, const struct result *result)
 {
-    const rotid_suggestion *s = result->suggest;
+    const struct shown shown = shown_of_suggestion(to->pool, result->suggest, to->verbose);
     screen_heading(to, &result->head);
-    (void)fputs("\nSUGGESTION\n", to->out);
-    screen_paragraph(to, "  ", s->sentence);
-    if (s->verdict)
-        screen_paragraph(to, "  diagnosis: ", s->verdict);
-    if (s->state)
-        screen_say(to, "  state: plans and tests are made like %s", s->state);
-    screen_paragraph(to, "  noise: ", noise_in_words(to->pool, &s->noise));
-    if (isfinite(s->speed_rpm)) {
-        screen_table(to, table_of_speed_tests(to->pool, s));
-        return;
-    }
-    screen_table(to, table_of_rivals(to->pool, s));
-    screen_table(to, table_of_tests(to->pool, s));
-    if (to->verbose)
-        screen_table(to, table_of_margins(to->pool, s));
-    screen_table(to, table_of_expected(to->pool, s));
-    screen_table(to, table_of_plans(to->pool, s, to->verbose));
-    screen_table(to, table_of_detectable(to->pool, s->ndetectable, s->detectable));
+    screen_say(to, "\nSUGGESTION");
+    screen_paragraph(to, "  ", result->suggest->sentence);
+    screen_shown(to, &shown);
 }

@@ -435,3 +435,10 @@ void screen_table(const struct screen *to, const struct table *table)
     (void)fputc('\n', to->out);
     table_write_text(to->out, table, to->width);
 }
+
+void screen_shown(const struct screen *to, const struct shown *shown)
+{
+    screen_reasons(to, &shown->said);
+    for (int i = 0; shown->table[i]; i++)
+        screen_table(to, shown->table[i]);
+}

@@ -312,21 +312,6 @@ static int compute(struct work *w, struct jobs *jobs, long number)
     return !status && w->pool.out_of_memory ? ROTID_ERROR_MEMORY : status;
 }
 
-/* Why a run failed, in one line: the errors that say something of their own, else what the status says. */
-static const char *reason(struct pool *pool, int status, const struct message_list *notes)
-{
-    const char *text = NULL;
-    for (size_t i = 0; i < notes->count; i++) {
-        const rotid_message *m = &notes->item[i];
-        if (m->severity != SEVERITY_ERROR)
-            continue;
-        const char *placed = m->file ? pool_format(pool, "%s:%d:%d: %s", m->file, m->line, m->column, m->text) : m->text;
-        const char *longer = text && placed ? pool_format(pool, "%s; %s", text, placed) : placed;
-        text = longer ? longer : text;
-    }
-    return text ? text : rotid_status_text(status);
-}
-
 int study_run(struct jobs *jobs, long run, const rotid_environment *environment, char **line)
 {
     const double begun = clock_seconds();
@@ -335,8 +320,10 @@ int study_run(struct jobs *jobs, long run, const rotid_environment *environment,
     pool_open(&w.pool, NULL);
     message_open(&w.notes, &w.pool);
     int status = error ? ROTID_OK : compute(&w, jobs, run);
-    if (status < 0)
-        error = reason(&w.pool, status, &w.notes);
+    if (status < 0) { /* what the errors say, else what the status says */
+        const char *said = message_errors(&w.notes, &w.pool);
+        error = *said ? said : rotid_status_text(status);
+    }
     *line = status == ROTID_STOP_CANCELLED ? NULL
             : error                        ? study_run_failed(w.study, run, error, clock_seconds() - begun)
                                            : line_of(&w.run, clock_seconds() - begun);

@@ -395,11 +395,10 @@ int summary_read(struct pool *pool, const char *path, struct message_list *messa
 /* The summary and the runs as tables; on a page and a screen an axis on which cells do not differ is left away. */
 struct table *table_of_cells(struct pool *pool, const struct study_result *summary);
 struct table *table_of_cell_parameters(struct pool *pool, const struct study_result *summary);
-struct table *table_of_cell_diagnoses(struct pool *pool, const struct study_result *summary);
 /* A row for each parameter of a run, one for a run that failed. */
 void table_add_run(struct table *table, const struct study_run *run);
 /* How the runs ended and what they found together, why runs failed. */
-struct reasons sentences_of_study(struct pool *pool, const struct study_result *summary);
+struct shown shown_of_study(struct pool *pool, const struct study_result *summary);
 void screen_study(const struct screen *to, const struct study_result *summary);
 
 /* What a run says in numbers: the parameters of its fit, then its critical speeds, "forward:1" (mixed ones among them) and

@@ -153,7 +153,7 @@ static const char *named(struct pool *pool, const struct cell_diagnoses *d)
 }
 
 /* Verdicts, and where the plan hid something the scores. */
-struct table *table_of_cell_diagnoses(struct pool *pool, const struct study_result *s)
+static struct table *table_of_cell_diagnoses(struct pool *pool, const struct study_result *s)
 {
     static const char *const scores[] = {"quiet", "false alarm", "right", "in set", "other set", "silent", "no cause", "wrong"};
     struct table *table = table_open(pool, "Diagnoses");
@@ -241,41 +241,41 @@ static struct shares add_up(const struct study_result *s)
     return sum;
 }
 
-struct reasons sentences_of_study(struct pool *pool, const struct study_result *s)
+struct shown shown_of_study(struct pool *pool, const struct study_result *s)
 {
     const struct shares sum = add_up(s);
-    struct reasons said = {.pool = pool};
+    struct shown shown = {
+        .said.pool = pool,
+        .table = {table_of_cells(pool, s), table_of_cell_parameters(pool, s), table_of_cell_diagnoses(pool, s)}};
     reasons_add(
-        &said, s->done < s->runs || s->failed > 0 || sum.not_converged > 0 ? TONE_CARE : TONE_NONE,
+        &shown.said, s->done < s->runs || s->failed > 0 || sum.not_converged > 0 ? TONE_CARE : TONE_NONE,
         "%s: %d of %d runs of %s%s in %d %s, %d failed, %.0f did not converge%s.", s->plan ? s->plan : "Decks as they stand",
         s->done, s->runs, s->studies, s->shards > 1 ? pool_text(pool, ", shard %d of %d,", s->shard, s->shards) : "", s->ncells,
         human_plural(s->ncells, "cell", "cells"), s->failed, sum.not_converged,
         s->done > 0 && isfinite(s->seconds) ? pool_text(pool, "; %s a run", human_seconds(pool, s->seconds / s->done)) : "");
     if (sum.starts > 0)
-        reasons_add(&said, TONE_NONE, "Of %.0f iterations from different starts %.0f end at the least functional of their cell.",
-                    sum.starts, sum.reached);
+        reasons_add(&shown.said, TONE_NONE,
+                    "Of %.0f iterations from different starts %.0f end at the least functional of their cell.", sum.starts,
+                    sum.reached);
     if (sum.intervals > 0)
-        reasons_add(&said, TONE_NONE, "Of %.0f 95\xc2\xa0%% intervals %s\xc2\xa0%% hold the truth.", sum.intervals,
+        reasons_add(&shown.said, TONE_NONE, "Of %.0f 95\xc2\xa0%% intervals %s\xc2\xa0%% hold the truth.", sum.intervals,
                     human_fixed(pool, 100 * sum.held / sum.intervals, 1));
     if (sum.scored > 0)
-        reasons_add(&said, TONE_NONE,
+        reasons_add(&shown.said, TONE_NONE,
                     "Of %.0f diagnoses %.0f are right, in the set, or correctly without a cause; %.0f name something else.",
                     sum.scored, sum.good, sum.false_alarm);
     for (int i = 0; i < s->nerrors && i < MOST_ERROR; i++)
-        reasons_add(&said, TONE_NONE, "%d failed, the first is run %d: %s", s->errors[i].runs, s->errors[i].first_run,
+        reasons_add(&shown.said, TONE_NONE, "%d failed, the first is run %d: %s", s->errors[i].runs, s->errors[i].first_run,
                     s->errors[i].error);
     if (s->nerrors > MOST_ERROR)
-        reasons_add(&said, TONE_NONE, "%d other reasons", s->nerrors - MOST_ERROR);
+        reasons_add(&shown.said, TONE_NONE, "%d other reasons", s->nerrors - MOST_ERROR);
     if (s->done < s->runs)
-        reasons_add(&said, TONE_NONE, "%d runs are missing", s->missing);
-    return said;
+        reasons_add(&shown.said, TONE_NONE, "%d runs are missing", s->missing);
+    return shown;
 }
 
 void screen_study(const struct screen *to, const struct study_result *s)
 {
-    const struct reasons said = sentences_of_study(to->pool, s);
-    screen_reasons(to, &said);
-    screen_table(to, table_of_cells(to->pool, s));
-    screen_table(to, table_of_cell_parameters(to->pool, s));
-    screen_table(to, table_of_cell_diagnoses(to->pool, s));
+    const struct shown shown = shown_of_study(to->pool, s);
+    screen_shown(to, &shown);
 }
