@@ -38,25 +38,16 @@ static const char *headline(struct pool *pool, const rotid_diagnosis *d, const c
     }
 }
 
-/* How to look for all that was named. */
-static const char *checks(struct pool *pool, const rotid_diagnosis *d)
-{
-    const char *text = "";
-    for (int i = 0; i < d->verdict.ncauses; i++)
-        if (!strstr(text, cause_check(d->verdict.causes[i].id)))
-            text = pool_text(pool, "%s%s%s", text, *text ? "; " : "", cause_check(d->verdict.causes[i].id));
-    return text;
-}
-
 static const char *next(struct pool *pool, const rotid_diagnosis *d, const char *deck)
 {
-    const char *text = d->verdict.next_measurement, *look = checks(pool, d);
+    const char *text = d->verdict.next_measurement;
     if (d->verdict.kind == -1)
         return pool_text(pool, "Next: run rotid diagnose %s to its end.", deck);
     if (d->verdict.kind == ROTID_ADEQUATE)
         return "Next: read the detection limits below before you rely on the moduli. Smaller effects may be present.";
-    if (d->verdict.kind == ROTID_NAMED && *look && !(text && strstr(text, look))) /* or it says it already */
-        text = pool_text(pool, "%s%s%s", look, text ? "; and " : ", before you believe the verdict", text ? text : "");
+    if (d->verdict.kind == ROTID_NAMED)
+        text = pool_text(pool, "inspect the rotor as below, before you believe the verdict%s%s", text ? "; and " : "",
+                         or_nothing(text));
     return text ? pool_text(pool, "Next: %s.", text) : NULL;
 }
 

@@ -341,7 +341,8 @@ struct reasons findings_of_diagnosis(struct pool *pool, const rotid_diagnosis *d
             text = pool_text(pool, "%s \xc2\xb1 %s", text, human_digits(pool, f->std * unit.factor, 2));
         if (isfinite(f->chi2_drop))
             text = pool_text(pool, "%s; \xcf\x87\xc2\xb2 less by %s", text, human_digits(pool, f->chi2_drop, 4));
-        reasons_add(&findings, TONE_NONE, "%s. At the test: %s.", text, kind ? kind->check : "");
+        reasons_add(&findings, TONE_NONE, "%s.%s%s%s", text, kind ? " At the test: " : "", kind ? kind->check : "",
+                    kind ? "." : "");
     }
     for (int i = 0; i < d->nnumerical_findings; i++) {
         const rotid_numerical_finding *f = &d->numerical_findings[i];
