@@ -70,30 +70,6 @@ static void section_transfer(struct document *document, const struct result *res
 
 /* ---- the machine in operation */
 
-/* The judged critical speed with the least margin, NULL where none is judged. */
-static const rotid_critical_speed *nearest(const rotid_speeds *s)
-{
-    const rotid_critical_speed *least = NULL;
-    for (int i = 0; i < s->ncritical_speeds; i++) {
-        const rotid_critical_speed *c = &s->critical_speeds[i];
-        if (isfinite(c->margin.value) && (!least || c->margin.value < least->margin.value))
-            least = c;
-    }
-    return least;
-}
-
-const char *answer_of_speeds(struct pool *pool, const rotid_speeds *s)
-{
-    const rotid_critical_speed *c = nearest(s);
-    if (c)
-        return speeds_judgement(pool, c, s);
-    if (!s->ncritical_speeds)
-        return pool_text(pool, "No critical speed up to %s rpm", human_trimmed(pool, s->campbell[s->ncampbell - 1].speed_rpm, 5));
-    return pool_text(pool, "%d critical %s, the first at %s rpm", s->ncritical_speeds,
-                     human_plural(s->ncritical_speeds, "speed", "speeds"),
-                     human_trimmed(pool, s->critical_speeds[0].speed_rpm, 5));
-}
-
 static void section_speeds(struct document *document, const struct result *result)
 {
     const struct shown shown = shown_of_speeds(document->pool, result->speeds, 1);

@@ -70,6 +70,12 @@ void section_trust(struct document *document, const struct result *result)
         section_hidden(document, result->identify, result->identify->nhidden, result->identify->hidden);
 }
 
+/* The first sentence of those that the section has. */
+static const char *first(const struct reasons said)
+{
+    return said.count ? said.text[0] : "";
+}
+
 void answer_plain(struct document *document, const struct result *result)
 {
     struct pool *pool = document->pool;
@@ -78,22 +84,14 @@ void answer_plain(struct document *document, const struct result *result)
         const rotid_model_mode *mode = result->modes->modes;
         text = pool_text(pool, "%d bending modes from %s", result->modes->nmodes,
                          human_range(pool, mode[0].full_hz, mode[result->modes->nmodes - 1].full_hz, "Hz"));
-    } else if (result->suggest) {
-        text = result->suggest->sentence;
-    } else if (result->speeds) {
-        text = answer_of_speeds(pool, result->speeds);
-    } else if (result->sensitivity) {
-        text =
-            pool_text(pool, "How %d modes depend on %d %s", result->sensitivity->nfrequency_hz, result->sensitivity->nparameters,
-                      human_plural(result->sensitivity->nparameters, "parameter", "parameters"));
-    } else if (result->frf) {
-        text = pool_text(pool, "%d transfer %s from %s", result->frf->nfunctions,
-                         human_plural(result->frf->nfunctions, "function", "functions"),
-                         human_range(pool, result->frf->low_hz, result->frf->high_hz, "Hz"));
     } else if (result->check) {
         text = pool_text(pool, "A rotor of %s and %s in %d %s", human_value(pool, result->check->length_m, "m"),
                          human_value(pool, result->check->mass_kg, "kg"), result->check->elements,
                          human_plural(result->check->elements, "element", "elements"));
     }
-    document->now.text = text;
+    document->now.text = result->suggest       ? result->suggest->sentence
+                         : result->speeds      ? first(shown_of_speeds(pool, result->speeds, 0).said)
+                         : result->sensitivity ? sensitivity_in_words(pool, result->sensitivity)
+                         : result->frf         ? first(sentences_of_transfer(pool, result->frf))
+                                               : text;
 }

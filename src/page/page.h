@@ -108,8 +108,6 @@ void answer_identify(struct document *document, const struct result *result);
 void answer_diagnose(struct document *document, const struct result *result);
 void answer_plain(struct document *document, const struct result *result);
 
-/* of a deck that is one state, or of one of its states */
-const char *answer_of_speeds(struct pool *pool, const rotid_speeds *speeds);
 /* of all states */
 void section_trust(struct document *document, const struct result *result);
 void section_diagnose(struct document *document, const struct result *result);

@@ -352,8 +352,6 @@ struct table *table_of_weighed(struct pool *pool, int count, const rotid_weighed
 struct table *table_of_runup(struct pool *pool, int count, const rotid_runup_speed *list);
 struct table *table_of_campbell(struct pool *pool, const rotid_speeds *speeds);
 struct table *table_of_response(struct pool *pool, const rotid_speeds *speeds);
-/* A sentence on the margin of a critical speed that has one. NULL where memory is out. */
-const char *speeds_judgement(struct pool *pool, const rotid_critical_speed *critical, const rotid_speeds *speeds);
 
 /* --------------------------------------------------------------------------------------------------------------- reasons */
 

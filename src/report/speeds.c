@@ -168,7 +168,8 @@ struct table *table_of_response(struct pool *pool, const rotid_speeds *s)
     return t;
 }
 
-const char *speeds_judgement(struct pool *pool, const rotid_critical_speed *c, const rotid_speeds *s)
+/* A sentence on the margin of a critical speed that has one. */
+static const char *judgement(struct pool *pool, const rotid_critical_speed *c, const rotid_speeds *s)
 {
     const struct machine range = {.low = s->low_rpm * RPM, .high = s->high_rpm * RPM};
     double judged = c->npeaks ? speeds_peak(&range, c)->speed_rpm : c->speed_rpm;
@@ -204,6 +205,18 @@ static const char *stability(struct pool *pool, const rotid_speeds *s)
                : pool_text(pool, "Mode %d is unstable from %.1f rpm on", s->stability.mode, s->stability.onset_rpm);
 }
 
+/* The judged critical speed with the least margin, NULL where none is judged. */
+static const rotid_critical_speed *nearest(const rotid_speeds *s)
+{
+    const rotid_critical_speed *least = NULL;
+    for (int i = 0; i < s->ncritical_speeds; i++) {
+        const rotid_critical_speed *c = &s->critical_speeds[i];
+        if (isfinite(c->margin.value) && (!least || c->margin.value < least->margin.value))
+            least = c;
+    }
+    return least;
+}
+
 struct shown shown_of_speeds(struct pool *pool, const rotid_speeds *s, int all)
 {
     struct shown shown = {.said.pool = pool,
@@ -211,9 +224,12 @@ struct shown shown_of_speeds(struct pool *pool, const rotid_speeds *s, int all)
                                     table_of_runup(pool, s->nrunup, s->runup), table_of_torsion(pool, s),
                                     table_of_shares(pool, s), table_of_peaks(pool, s), table_of_loads(pool, s),
                                     all ? table_of_sensitivities(pool, s) : NULL}};
-    for (int i = 0; i < s->ncritical_speeds; i++)
-        if (isfinite(s->critical_speeds[i].margin.value))
-            reasons_add(&shown.said, TONE_NONE, "%s", speeds_judgement(pool, &s->critical_speeds[i], s));
+    const rotid_critical_speed *least = nearest(s);
+    if (least)
+        reasons_add(&shown.said, TONE_NONE, "%s", judgement(pool, least, s));
+    for (const rotid_critical_speed *c = s->critical_speeds; c < s->critical_speeds + s->ncritical_speeds; c++)
+        if (isfinite(c->margin.value) && c != least)
+            reasons_add(&shown.said, TONE_NONE, "%s", judgement(pool, c, s));
     if (s->ncampbell)
         reasons_add(&shown.said, TONE_NONE, "%s", stability(pool, s));
     if (isfinite(s->stability.probability_stable))
