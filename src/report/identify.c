@@ -42,14 +42,6 @@ struct table *table_of_compared_modes(struct pool *pool, const struct result_hea
 struct table *table_of_parameters(struct pool *pool, const rotid_identification *fit)
 {
     struct table *table = table_open(pool, "Parameters");
-    const char *quote = "";
-    for (int p = 0; p < fit->nparameters && !fit_is_inadequate(fit); p++) {
-        const rotid_fitted_parameter *is = &fit->parameters[p];
-        const char *one = is->at_bound || !is->identifiable ? NULL : human_quote(pool, is->value, is->ci95, is->unit);
-        quote = one ? pool_text(pool, "%s%s%s = %s", quote, *quote ? ", " : "", is->name, one) : quote;
-    }
-    if (*quote)
-        table_note(table, "%s (95 %%)", quote);
     for (int p = 0; p < fit->nparameters; p++) {
         const rotid_fitted_parameter *is = &fit->parameters[p];
         text_column(table, "parameter", SHOW_TEXT, is->name);

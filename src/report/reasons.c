@@ -114,14 +114,11 @@ static void on_intervals(struct reasons *reasons, const rotid_identification *fi
     double widest = 0;
     int none = 0;
     for (int p = 0; p < fit->nparameters; p++) {
-        const double *ci = fit->parameters[p].ci95, half = interval_half_percent(fit->parameters[p].value, ci[0], ci[1]);
-        if (!isfinite(half)) {
-            none++;
-            continue;
-        }
-        widest = fmax(widest, half);
-        wide = pool_text(pool, "%s%s%s \xc2\xb1%s\xc2\xa0%%", wide, *wide ? ", " : "", fit->parameters[p].name,
-                         human_digits(pool, half, 2));
+        const rotid_fitted_parameter *is = &fit->parameters[p];
+        const char *quote = human_quote(pool, is->value, is->ci95, is->unit);
+        none += !quote;
+        widest = fmax(widest, interval_half_percent(is->value, is->ci95[0], is->ci95[1])); /* which is above NaN */
+        wide = quote ? pool_text(pool, "%s%s%s = %s", wide, *wide ? ", " : "", is->name, quote) : wide;
     }
     if (none == fit->nparameters)
         reasons_add(reasons, TONE_CARE, "No interval can be stated for any parameter.");
