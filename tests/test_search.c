@@ -256,10 +256,12 @@ UNIT_TEST(a_wide_minimum_counts_beside_narrow_ones)
     rotid_diagnosis *d = diagnosed("wide_valley");
     assert_int_equal(d->verdict.kind, ROTID_AMBIGUOUS);
     const rotid_explanation *e = alone(d, "support_rotation", "");
-    assert_non_null(e);
-    assert_true(e->probability > 0.2);
+    while (e && e < d->verdict.explanations + d->verdict.nexplanations &&
+           (e->ncauses != 1 || strcmp(e->causes[0].id, "support_rotation") != 0 || value_of(&e->causes[0], "z") > 0.64))
+        e++;
+    assert_true(e && e < d->verdict.explanations + d->verdict.nexplanations);
+    assert_true(e->probability > 0.35);
     assert_close(value_of(&e->causes[0], "stiffness"), 2.12e7, 0.1, 0);
-    assert_true(value_of(&e->causes[0], "z") < 0.64);
     rotid_diagnosis_free(d);
 }
 
@@ -289,6 +291,9 @@ UNIT_TEST(a_cause_weighs_with_all_its_places)
         support += strcmp(d->verdict.marginals[i].id, "support_extra") ? 0 : d->verdict.marginals[i].probability;
     }
     assert_true(largest < 0.2 && support > 0.25);
+    char words[64];
+    (void)snprintf(words, sizeof words, "nothing is wrong and chance did this is %.0f %%", 100 * d->verdict.nothing);
+    assert_non_null(strstr(d->verdict.sentence, words)); /* the same as in the list */
     assert_status(rotid_suggest(deck, NULL, NULL, NULL, &s), ROTID_OK);
     for (int i = 0; i < s->nrivals; i++)
         for (int k = 0; k < i; k++)
@@ -311,13 +316,24 @@ UNIT_TEST(a_mode_that_was_counted_twice_is_left_out)
     rotid_diagnosis_free(d);
 }
 
+/* By `rotid identify` with the cone, G is 10.129 GPa on twice as many elements as the deck states, 10.192 and 10.2095 GPa on four
+ * and eight times as many, each +- 0.045: chi2 hardly tells that they are too few. */
+UNIT_TEST(the_mesh_of_a_cone_moves_no_modulus)
+{
+    rotid_diagnosis *d = diagnosed("coarse_cone");
+    names(d, "step_stiffness", "");
+    assert_string_equal(d->parameters[1].name, "core.G");
+    assert_close(d->parameters[1].value, 1.02095e10, 0.002, 0);
+    rotid_diagnosis_free(d);
+}
+
 /* Chance leaves as much in one of a thousand cases. */
 UNIT_TEST(an_improbable_misfit_that_no_cause_explains_is_no_explained_one)
 {
     rotid_diagnosis *d = diagnosed("improbable");
     assert_int_equal(d->verdict.kind, ROTID_ADEQUATE);
     assert_true(d->verdict.p_value < 0.01);
-    assert_true(!strncmp(d->verdict.sentence, "Nothing is wrong with 4", 23));
+    assert_true(!strncmp(d->verdict.sentence, "Nothing is wrong with ", 22));
     assert_non_null(strstr(d->verdict.sentence, " %, more than with any cause, though"));
     rotid_diagnosis_free(d);
 }

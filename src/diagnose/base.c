@@ -30,16 +30,20 @@ static int failed(int status)
     return status == ROTID_ERROR_MEMORY ? status : ROTID_OK; /* the modes are others there: nothing is known */
 }
 
-/* worth = ||(I - Q Q') (r' - r)||^2: r the residual of a job at its fitted values x, r' that of `finer`, the same job with more
- * elements, Q an orthonormal basis of the sensitivities of the fitted parameters, which take up the rest. It is the chi2 that a
- * cause could gain from the mesh alone. Frequencies do not tell it: of two modes close to each other a mesh that moves both by
- * little turns the shapes. 0 where the finer mesh has no such modes. ROTID_OK, ROTID_ERROR_MEMORY. */
+struct mesh_error {
+    double worth; /* ||(I - Q Q') (r' - r)||^2: the chi2 that a cause could gain from the mesh alone */
+    double moved; /* ||Q' (r' - r)||: how far the mesh moves the fitted parameters, in standard deviations */
+};
+
+/* r the residual of a job at its fitted values x, r' that of `finer`, the same job with more elements, Q an orthonormal basis of
+ * the sensitivities of the fitted parameters. Frequencies do not tell it: of two modes close to each other a mesh that moves both
+ * by little turns the shapes. 0 where the finer mesh has no such modes. ROTID_OK, ROTID_ERROR_MEMORY. */
 static int compare_meshes(struct pool *pool, const struct engine *engine, const struct job *job, const struct job *finer,
-                          const double *x, double *worth)
+                          const double *x, struct mesh_error *error)
 {
     struct columns here, there;
     int parameters = job->unknowns.nparameter, count = 0;
-    *worth = 0;
+    *error = (struct mesh_error){0};
     int status = columns_open(pool, job, engine->number, engine->holdout, NULL, x, &here);
     if (!status)
         status = columns_prepare(&here);
@@ -61,8 +65,10 @@ static int compare_meshes(struct pool *pool, const struct engine *engine, const 
     }
     for (int i = 0; i < n; i++)
         change[i] = there.r[i] - here.r[i];
+    double whole = dot(n, change, change);
     project(n, count, direction, change);
-    *worth = dot(n, change, change);
+    error->worth = dot(n, change, change);
+    error->moved = sqrt(fmax(0, whole - error->worth));
     return ROTID_OK;
 }
 
@@ -70,9 +76,10 @@ static int compare_meshes(struct pool *pool, const struct engine *engine, const 
 #define LEAST_LEFT   3
 #define MOST_REFINED 3 /* times the mesh is halved */
 #define MOST_WEIGHED 5
-#define SAME_MASS    0.1 /* standard deviations */
-#define MESH_WORTH   1.0 /* of chi2, where noise makes one a residual: from there a mesh is refined */
-#define NEGLIGIBLE   0.1 /* of the noise of a frequency: an error of the mesh that moves no modulus out of its interval */
+#define SAME_MASS    0.1  /* standard deviations */
+#define MESH_WORTH   1.0  /* of chi2, where noise makes one a residual: from there a mesh is refined, */
+#define MESH_MOVES   0.25 /* or of the standard deviation of a parameter */
+#define NEGLIGIBLE   0.1  /* of the noise of a frequency: an error of the mesh that moves no modulus out of its interval */
 
 static int add_numerical(struct engine *engine, const char *id, int count, const double *error, const char *text)
 {
@@ -132,20 +139,26 @@ static int refine_mesh(struct pool *pool, struct rotor *rotor)
 }
 
 /* The same of a job and its fitted values, beside twice as many elements. */
-static int mesh_worth(const struct engine *engine, const struct job *job, const double *x, double *worth)
+static int find_mesh_error(const struct engine *engine, const struct job *job, const double *x, struct mesh_error *error)
 {
     struct pool scratch;
     struct job finer = *job;
     pool_open(&scratch, engine->pool->allocator);
     int status = refine_mesh(&scratch, &finer.rotor);
     if (!status)
-        status = compare_meshes(&scratch, engine, job, &finer, x, worth);
+        status = compare_meshes(&scratch, engine, job, &finer, x, error);
     pool_close(&scratch);
     return status;
 }
 
-/* That the mesh is made finer, once: by the error `ratio` of mode `at` against its noise, or where that is small by its worth. */
-static int note_mesh(struct engine *engine, double ratio, int at, double worth)
+static int is_too_coarse(const struct mesh_error *error)
+{
+    return error->worth > MESH_WORTH || error->moved > MESH_MOVES;
+}
+
+/* That the mesh is made finer, once: by the error `ratio` of mode `at` against its noise, or where that is small by what
+ * it does to the fit. */
+static int note_mesh(struct engine *engine, double ratio, int at, const struct mesh_error *error)
 {
     const rotid_diagnosis *out = &engine->out->result;
     const struct spectrum *s = &engine->out->base.spectrum;
@@ -156,7 +169,11 @@ static int note_mesh(struct engine *engine, double ratio, int at, double worth)
         engine, "mesh", s->count, s->mesh_error_percent,
         ratio > 1 ? pool_format(engine->pool, "the mesh moves mode %d by %+.2f %%, %.1f times its noise; a finer mesh is used",
                                 at + 1, s->mesh_error_percent[at], ratio)
-                  : pool_format(engine->pool, "the error of the mesh raises chi2 by %.2g; a finer mesh is used", worth));
+        : error->worth > MESH_WORTH
+            ? pool_format(engine->pool, "the error of the mesh raises chi2 by %.2g; a finer mesh is used", error->worth)
+            : pool_format(engine->pool,
+                          "the error of the mesh moves the fitted parameters by %.2g standard deviations; a finer mesh is used",
+                          error->moved));
 }
 
 int base_note_reduction(struct engine *engine)
@@ -342,12 +359,13 @@ int base_prepare(struct engine *engine)
     for (int pass = 0;
          pass < MOST_REFINED && !status && one && !engine->job->options.solid && can_be_refined(&engine->job->rotor); pass++) {
         const struct spectrum *s = &out->base.spectrum;
-        double ratio = against_noise(engine->job, engine->number, s->mesh_error_percent, s->count, &at), worth = 0;
+        double ratio = against_noise(engine->job, engine->number, s->mesh_error_percent, s->count, &at);
+        struct mesh_error error = {0};
         if (!(ratio > 1))
-            status = mesh_worth(engine, engine->job, engine->fit->x, &worth);
-        if (status || (!(ratio > 1) && !(worth > MESH_WORTH)))
+            status = find_mesh_error(engine, engine->job, engine->fit->x, &error);
+        if (status || (!(ratio > 1) && !is_too_coarse(&error)))
             break;
-        status = note_mesh(engine, ratio, at, worth);
+        status = note_mesh(engine, ratio, at, &error);
         if (!status)
             status = refine_mesh(engine->pool, &engine->job->rotor);
         if (!status)
@@ -422,18 +440,18 @@ int base_again(struct engine *engine)
 
 int base_refine_beside(struct engine *engine, const struct job *job, const double *x, int *changed)
 {
-    double worth = 0, raised;
+    struct mesh_error error = {0}, first;
     *changed = 0;
     if (engine->states.nstate > 1 || job->options.solid || !can_be_refined(&job->rotor))
         return ROTID_OK;
-    int status = mesh_worth(engine, job, x, &worth);
-    raised = worth;
-    for (int pass = 0; pass < MOST_REFINED && worth > MESH_WORTH && !status && can_be_refined(&engine->job->rotor);
-         pass++, worth /= 16) {
+    int status = find_mesh_error(engine, job, x, &error);
+    first = error;
+    for (int pass = 0; pass < MOST_REFINED && is_too_coarse(&error) && !status && can_be_refined(&engine->job->rotor); pass++) {
+        error = (struct mesh_error){error.worth / 16, error.moved / 4};
         status = refine_mesh(engine->pool, &engine->job->rotor);
         *changed = 1;
     }
-    return *changed && !status ? note_mesh(engine, 0, 0, raised) : status;
+    return *changed && !status ? note_mesh(engine, 0, 0, &first) : status;
 }
 
 int base_refine(struct pool *pool, struct job *job, const int *number, const struct spectrum *spectrum)

@@ -10,7 +10,7 @@
  *   3 scan       scan_list.c: causes at all targets and places; columns.c: c = dr/da by adjoints (K - lambda M)^+; scan.c
  *                (scan_run): c_perp = c - QQ'c, drop of chi2 (c_perp'r)^2/|c_perp|^2; as_solid.c: the beam as a solid
  *   4 posterior  posterior.c (posterior_run): probabilities, averaged moduli; search.c, scan_pairs.c: beam search over sets;
- *                refit.c: fits with causes; laplace.c (evidence_of_fit): ln Z of a fit; over_width.c; place_interval.c
+ *                refit.c: fits with causes; laplace.c (evidence_of_fit): ln Z of a fit; profile.c
  *   5 data       3 and 4 again behind what they show (round.c, round_run): far_starts.c; pairing.c; faults.c: channels; level of
  *                the noise
  *   6 evidence   verdict.c; advice.c; evidence.c, leave_out.c: single causes for the reader, modes and sensors left out
@@ -453,6 +453,9 @@ void states_share_bounds(struct states *states, int p);
 /* *to := the states with the values that their effects have at x. */
 int states_at(struct pool *pool, const struct states *states, const double *x, struct states *to);
 
+/* *to := the same, started at x, with unknown p, a parameter of an effect, at a value and no unknown any more. */
+int states_hold(struct pool *pool, const struct states *states, const double *x, int p, double value, struct states *to);
+
 struct refit {
     struct states states;  /* with the effects of the set at the best values, which are also the starts */
     rotid_fit_result *fit; /* NULL where no start led anywhere */
@@ -821,23 +824,24 @@ int evidence_of_fit(const struct evidence_data *data, const struct states *state
 #define EVIDENCE_PROFILE_TERMS 12
 int evidence_profile(const struct scan *scan, const struct states *states, const struct cause_kind *cause, double *column);
 
-/* What the widths that are free make of the evidence of such a fit (over_width.c): the differences of ln Z are added to *out, and
- * the moments of the nown unknowns take the place of those there. ROTID_OK, memory, cancellation, library. */
-struct strip_case {
+/* Unknown p of a fit with causes, a place between its bounds [m] or a width, logarithmic, by its profile (profile.c). Its 95 %
+ * interval goes into the fit: where the least chi2 of all other unknowns is within 3.84 of that of the fit, times the square by
+ * which its intervals are widened, to a hundredth of the range or a seventh of the distance. The integral over it goes into *out:
+ * what that makes beyond evidence_of_fit is added to its ln Z, the moments of the nown unknowns take the place of those there;
+ * data NULL: not asked for, out and valley are not used. valley: where Z falls to e^-4 of the largest, left alone without.
+ * Statuses of memory, cancellation, library. Time: three to twenty fits. */
+struct profile_case {
+    const struct evidence_data *data;
     const struct states *states; /* with the bounds of the fit */
-    const rotid_fit_result *fit;
+    rotid_fit_result *fit;
     const int *number, *holdout;
     int nown, nmember, nfault;
     const struct candidate *member;
     struct fault_column *fault;
     const rotid_environment *environment;
 };
-int evidence_over_widths(struct pool *pool, const struct evidence_data *data, const struct strip_case *c, struct evidence *out);
-
-/* The 95 % interval of unknown p, a place between its bounds [m], by the profile of chi2 (place_interval.c), into `fit`: where
- * the least chi2 of all other unknowns is within 3.84 of that of the fit, times the square by which its intervals are widened, to
- * a hundredth of the range or a seventh of the distance. Statuses of memory and cancellation only. Time: two to fourteen fits. */
-int place_interval(const struct engine *engine, const struct states *states, rotid_fit_result *fit, int p);
+int profile_unknown(struct pool *pool, const struct profile_case *c, int p, int logarithmic, struct evidence *out,
+                    double valley[2]);
 
 struct model_prior { /* of a parameter of a host: normal about neutral, deviation 0: uniform, of a positive one in ln */
     double lower, upper, neutral, deviation;

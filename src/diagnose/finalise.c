@@ -32,6 +32,11 @@ static int cause_intervals(const struct engine *engine)
 {
     struct diagnosis *out = engine->out;
     rotid_fit_result *fit = out->extended.fit;
+    const struct profile_case profile = {.states = &out->extended_states,
+                                         .fit = fit,
+                                         .number = engine->number,
+                                         .holdout = engine->holdout,
+                                         .environment = engine->environment};
     int status = ROTID_OK;
     for (int c = 0; c < out->ncause + out->nlikely && !status; c++) {
         struct candidate *cause = &out->cause[c];
@@ -47,7 +52,7 @@ static int cause_intervals(const struct engine *engine)
         int p = place < 0 || cause->fixed[place] ? -1 : effect_unknown(state, e, place);
         if (p < 0)
             continue;
-        status = place_interval(engine, &out->extended_states, fit, p);
+        status = profile_unknown(engine->pool, &profile, p, 0, NULL, NULL);
         cause->ci_lower[place] = fit->ci_lower[p];
         cause->ci_upper[place] = fit->ci_upper[p];
     }
@@ -239,7 +244,7 @@ static const char *change_sentence(const struct engine *engine, const char *caus
         return pool_format(pool,
                            "The data cannot tell what changed between %s and %s (%s): %s. The probability that nothing changed "
                            "and chance did this is %s.%s",
-                           from, to, chance, others, text_of_probability(pool, 2, verdict->nothing), end);
+                           from, to, chance, others, text_of_probability(pool, 2, engine->out->posterior.nothing), end);
     default:
         return pool_format(pool, "Something changed between %s and %s (%s), and with %.0f %% it is not in the catalogue: %s.%s",
                            from, to, chance, 100 * verdict->something_else, others, end);
@@ -316,7 +321,7 @@ static const char *verdict_sentence(struct engine *engine)
         return pool_format(pool,
                            "The data cannot tell what the model lacks (%s): %s. The probability that nothing is wrong and chance "
                            "did this is %s.%s%s",
-                           chance, others, text_of_probability(pool, 2, verdict->nothing), faults, open);
+                           chance, others, text_of_probability(pool, 2, engine->out->posterior.nothing), faults, open);
     default:
         return pool_format(
             pool, "The model does not explain the data (%s), and with %.0f %% what it lacks is not in the catalogue: %s.%s%s%s",

@@ -236,6 +236,44 @@ int states_at(struct pool *pool, const struct states *states, const double *x, s
     return status;
 }
 
+int states_hold(struct pool *pool, const struct states *states, const double *x, int p, double value, struct states *to)
+{
+    int n = states->nparameter;
+    double *at = POOL_COPY(pool, x, n, 1);
+    if (!at)
+        return ROTID_ERROR_MEMORY;
+    at[p] = value;
+    int status = states_at(pool, states, at, to);
+    if (!status)
+        status = states_started_at(pool, to, at, to);
+    for (int s = 0; s < to->nstate && !status; s++) {
+        struct job_unknowns *u = &to->state[s].job.unknowns;
+        struct parameter *parameter = POOL_ARRAY(pool, struct parameter, u->nparameter);
+        int kept = 0, *unknown = POOL_ARRAY(pool, int, u->nparameter);
+        if (!parameter || !unknown)
+            return ROTID_ERROR_MEMORY;
+        for (int q = 0; q < u->nparameter; q++) {
+            int one = state_unknown(&to->state[s], q);
+            if (one == p)
+                continue;
+            parameter[kept] = u->parameter[q];
+            u->bounds[kept] = u->bounds[q];
+            unknown[kept++] = one - (one > p);
+        }
+        u->parameter = parameter;
+        u->nparameter = kept;
+        to->state[s].unknown = unknown;
+    }
+    if (status || to->nstate == 1) {
+        take_bounds(to);
+        return status;
+    }
+    for (int q = p; q + 1 < n; q++)
+        to->bounds[q] = to->bounds[q + 1];
+    to->nparameter = n - 1;
+    return ROTID_OK;
+}
+
 int refit_until(struct pool *pool, const struct states *states, const int *number, const int *holdout, double objective,
                 const rotid_environment *environment, rotid_fit_result **fit)
 {

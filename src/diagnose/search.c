@@ -2,9 +2,9 @@
  * first; then the most probable sets that were not expanded yet are scanned for one more cause, each addition is scored by the
  * evidence of its columns, the most promising are fitted, as is the set with one cause less and, where no single cause leaves
  * nothing, pairs of columns (scan_pairs.c), and scored by laplace.c, until none is left within SEARCH_WITHIN of the best. Each
- * place to which the starts of a cause lead is an explanation of its own. What was not fitted enters by its columns; widths that
- * are free are integrated at last (over_width.c), places get their intervals (place_interval.c); something else comes beside the
- * likeliest, where it leads beside every single cause. */
+ * place to which the starts of a cause lead is an explanation of its own. What was not fitted enters by its columns; places and
+ * widths that are free are integrated over at last (profile.c); something else comes beside the likeliest, where it leads beside
+ * every single cause. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,8 +24,7 @@
 #define ELSEWHERE  10   /* places along the rotor from which a cause is fitted, by frequencies alone */
 #define OTHER_SIZE 4.0  /* times: of one that spans decades */
 #define AT_END     1e-3 /* of the length */
-#define PLACES     12   /* of causes that are looked at by their profile, */
-#define OF_BEST    3.0  /* in ln P below the best set: a twentieth */
+#define PROFILES   24   /* of causes */
 
 /* Whether a set stands elsewhere than the same causes found beside another one: its fit may have ended in another minimum. */
 static int stands_elsewhere(const struct posterior *p, const struct explanation *set, const struct explanation *found)
@@ -551,82 +550,96 @@ static int expand(struct engine *engine, struct round_result *result, struct pos
     return status;
 }
 
-/* The first cause of a set whose width is free; NULL: none. */
-static const struct candidate *free_width(const struct explanation *e)
-{
-    for (int m = 0; m < e->nmember && e->refit; m++)
-        if (e->member[m].cause->width >= 0 && !e->member[m].fixed[e->member[m].cause->width])
-            return &e->member[m];
-    return NULL;
-}
-
-/* Evidence over the widths that are free, of the sets that count. What it is to a zone it is in the likeliest set that has it;
- * the others take it from there. */
-static int integrate_widths(struct engine *engine, struct posterior *p)
+/* The profile of a free unknown of member m of a set, its place or its width: the interval goes into the member, the integral
+ * over it into the evidence, but for a place beside a free width: at each width the normal knows the place well. */
+static int profile_member(struct engine *engine, struct explanation *e, int m, int component, double valley[2])
 {
     struct fault_column column[2 * MOST_MEMBERS];
-    double best = -INFINITY, *more = POOL_ARRAY(engine->pool, double, p->count + 1);
-    if (!more)
-        return ROTID_ERROR_MEMORY;
-    for (int i = 0; i < p->count; i++)
-        best = fmax(best, p->item[i].log_posterior);
-    for (int i = 0, from; i < p->count; i++) {
-        struct explanation *e = &p->item[i];
-        const struct candidate *zone = e->log_posterior > best - SEARCH_WITHIN ? free_width(e) : NULL;
-        for (from = 0; zone && from < i; from++)
-            if (more[from] && free_width(&p->item[from]) && posterior_same_model(free_width(&p->item[from]), zone) &&
-                posterior_same_name(p, free_width(&p->item[from]), zone))
-                break;
-        if (!zone)
-            continue;
-        double before = e->evidence.log_z;
-        struct strip_case strips = {.states = &e->refit->states,
-                                    .fit = e->refit->fit,
-                                    .number = engine->number,
-                                    .holdout = engine->holdout,
-                                    .nown = engine->nown,
-                                    .nmember = e->nmember,
-                                    .member = e->member,
-                                    .fault = column,
-                                    .environment = engine->environment};
-        int status = from < i ? ROTID_OK : explanation_faults(engine, e, column, &strips.nfault);
-        if (!status && from == i)
-            status = evidence_over_widths(engine->pool, e->data, &strips, &e->evidence);
-        if (status)
-            return status;
-        more[i] = from < i ? more[from] : e->evidence.log_z - before;
-        e->evidence.log_z = before + more[i];
-        e->log_posterior += more[i];
-    }
+    struct candidate *c = &e->member[m];
+    const struct state *home = &e->refit->states.state[c->home];
+    int p = effect_unknown(home, effect_named(home, c->effect.name), component), width = component == c->cause->width,
+        is_integrated = width || c->cause->width < 0 || c->fixed[c->cause->width];
+    if (p < 0 || (width && !(e->refit->states.bounds[p].lower > 0)))
+        return ROTID_OK;
+    struct profile_case profile = {.data = is_integrated ? e->data : NULL,
+                                   .states = &e->refit->states,
+                                   .fit = e->refit->fit,
+                                   .number = engine->number,
+                                   .holdout = engine->holdout,
+                                   .nown = engine->nown,
+                                   .nmember = e->nmember,
+                                   .member = e->member,
+                                   .fault = column,
+                                   .environment = engine->environment};
+    int status = explanation_faults(engine, e, column, &profile.nfault);
+    if (!status)
+        status = profile_unknown(engine->pool, &profile, p, width, &e->evidence, valley);
+    if (status)
+        return status;
+    c->ci_lower[component] = e->refit->fit->ci_lower[p];
+    c->ci_upper[component] = e->refit->fit->ci_upper[p];
     return ROTID_OK;
 }
 
-/* The places of the sets that count by their profiles, each cause in the likeliest set that has it there. Of what is a solid
- * beside beams, whose fits take a hundred times as long, the fit's own intervals do. */
-static int find_places(const struct engine *engine, struct posterior *p)
+/* The same set with its cause at another place within the valley of the first one is the first one. */
+static void drop_same(struct posterior *p, int i, int m, const double valley[2])
 {
-    const struct candidate *found[PLACES];
+    const struct candidate *c = &p->item[i].member[m];
+    for (int j = i + 1; j < p->count; j++) {
+        struct explanation *e = &p->item[j];
+        int others = 1, inside = 0;
+        if (!e->refit || !posterior_same_set(&p->item[i], e))
+            continue;
+        for (int k = 0; k < e->nmember; k++) {
+            double z = e->member[k].effect.value[c->cause->place];
+            if (posterior_same_model(&e->member[k], c))
+                inside |= e->member[k].effect.variant == c->effect.variant && z >= valley[0] && z <= valley[1];
+            else
+                others &= posterior_has(p, &p->item[i], &e->member[k]);
+        }
+        if (others && inside)
+            e->log_posterior = e->evidence.log_z = -INFINITY;
+    }
+}
+
+/* Places and free widths of the sets that count by their profiles, each cause in the likeliest set that has it there: the others
+ * take from there what that makes of the evidence. Of what is a solid beside beams, whose fits take a hundred times as long, the
+ * fit's own does. */
+static int integrate(struct engine *engine, struct posterior *p)
+{
+    const struct candidate *found[PROFILES];
+    double more[PROFILES], valley[2], least = p->item[0].log_posterior - SEARCH_WITHIN;
     int known = 0, k;
-    for (int i = 0; i < p->count && p->item[i].log_posterior > p->item[0].log_posterior - OF_BEST; i++) {
-        const struct refit *refit = p->item[i].refit;
-        for (int m = 0; m < p->item[i].nmember && refit; m++) {
-            struct candidate *c = &p->item[i].member[m];
-            int place = c->cause->place, q = -1, status;
+    for (int i = 0; i < p->count; i++) {
+        struct explanation *e = &p->item[i];
+        int counts = e->log_posterior > least;
+        for (int m = 0; m < e->nmember && e->refit; m++) {
+            struct candidate *c = &e->member[m];
+            const int component[2] = {c->cause->width, c->cause->place};
+            valley[0] = INFINITY;
+            valley[1] = -INFINITY;
+            double before = e->evidence.log_z;
+            if (e->refit->states.state->job.options.solid != engine->job->options.solid || !isfinite(before))
+                continue;
             for (k = 0; k < known; k++)
                 if (posterior_same_model(found[k], c) && posterior_same_name(p, found[k], c))
                     break;
-            if (place >= 0 && !c->fixed[place] && k == known && known < PLACES &&
-                refit->states.state->job.options.solid == engine->job->options.solid)
-                q = effect_unknown(&refit->states.state[c->home], effect_named(&refit->states.state[c->home], c->effect.name),
-                                   place);
-            if (q < 0)
-                continue;
-            status = place_interval(engine, &refit->states, refit->fit, q);
-            if (status)
-                return status;
-            c->ci_lower[place] = refit->fit->ci_lower[q];
-            c->ci_upper[place] = refit->fit->ci_upper[q];
-            found[known++] = c;
+            if (k < known) {
+                e->evidence.log_z += more[k];
+            } else if (counts && known < PROFILES) {
+                for (int j = 0; j < 2; j++) {
+                    if (component[j] < 0 || c->fixed[component[j]])
+                        continue;
+                    int status = profile_member(engine, e, m, component[j], valley);
+                    if (status)
+                        return status;
+                    if (component[j] == c->cause->place)
+                        drop_same(p, i, m, valley);
+                }
+                more[known] = e->evidence.log_z - before;
+                found[known++] = c;
+            }
+            e->log_posterior += e->evidence.log_z - before;
         }
     }
     return ROTID_OK;
@@ -750,9 +763,7 @@ int search_run(struct engine *engine, struct round_result *result, struct poster
         status = enter_elsewhere(engine, result, p);
     posterior_sort(p);
     if (!status)
-        status = integrate_widths(engine, p);
+        status = integrate(engine, p);
     posterior_sort(p);
-    if (!status)
-        status = find_places(engine, p);
     return status ? status : add_something_else(engine, p);
 }
