@@ -88,7 +88,7 @@ struct explanation { /* a set of causes, perhaps with something else beside it *
     const struct refit *refit;  /* its fit; NULL: none, but the line of the scan */
     const struct scan *scan;    /* at that fit; NULL: not scanned */
     struct evidence_data *data; /* with its faults of the measurement put right */
-    double outside;             /* of these, see struct fault_proposal */
+    double outside;             /* of these, see struct fault_proposal; and what integrals over places and widths add */
     struct evidence evidence;
     double log_prior, log_posterior, probability;
     double at_rest, runup_chi2; /* the probability without the measured critical speeds; chi2 of these, NaN: none */

@@ -602,9 +602,9 @@ static void drop_same(struct posterior *p, int i, int m, const double valley[2])
     }
 }
 
-/* Places and free widths of the sets that count by their profiles, each cause in the likeliest set that has it there: the others
- * take from there what that makes of the evidence. Of what is a solid beside beams, whose fits take a hundred times as long, the
- * fit's own does. */
+/* Places and free widths of the sets that count by their profiles, each cause in the likeliest set that was fitted with it there:
+ * the others take from there what that makes of the evidence, but for the last member of a set by columns, the mean over all
+ * places. Of what is a solid beside beams, whose fits take a hundred times as long, the fit's own does. */
 static int integrate(struct engine *engine, struct posterior *p)
 {
     const struct candidate *found[PROFILES];
@@ -612,33 +612,34 @@ static int integrate(struct engine *engine, struct posterior *p)
     int known = 0, k;
     for (int i = 0; i < p->count; i++) {
         struct explanation *e = &p->item[i];
-        int counts = e->log_posterior > least;
-        for (int m = 0; m < e->nmember && e->refit; m++) {
+        int counts = e->log_posterior > least && e->refit;
+        for (int m = 0; m < e->nmember - !e->refit; m++) {
             struct candidate *c = &e->member[m];
             const int component[2] = {c->cause->width, c->cause->place};
-            valley[0] = INFINITY;
-            valley[1] = -INFINITY;
             double before = e->evidence.log_z;
-            if (e->refit->states.state->job.options.solid != engine->job->options.solid || !isfinite(before))
+            if ((e->refit && e->refit->states.state->job.options.solid != engine->job->options.solid) || !isfinite(before) ||
+                component[1] < 0)
                 continue;
             for (k = 0; k < known; k++)
                 if (posterior_same_model(found[k], c) && posterior_same_name(p, found[k], c))
                     break;
+            for (int j = 0; j < 2 && k == known && counts && known < PROFILES; j++) {
+                valley[0] = INFINITY;
+                valley[1] = -INFINITY;
+                int status =
+                    component[j] < 0 || c->fixed[component[j]] ? ROTID_OK : profile_member(engine, e, m, component[j], valley);
+                if (status)
+                    return status;
+                if (component[j] == c->cause->place)
+                    drop_same(p, i, m, valley);
+            }
             if (k < known) {
                 e->evidence.log_z += more[k];
             } else if (counts && known < PROFILES) {
-                for (int j = 0; j < 2; j++) {
-                    if (component[j] < 0 || c->fixed[component[j]])
-                        continue;
-                    int status = profile_member(engine, e, m, component[j], valley);
-                    if (status)
-                        return status;
-                    if (component[j] == c->cause->place)
-                        drop_same(p, i, m, valley);
-                }
                 more[known] = e->evidence.log_z - before;
                 found[known++] = c;
             }
+            e->outside += e->evidence.log_z - before; /* for something else beside this set, too */
             e->log_posterior += e->evidence.log_z - before;
         }
     }
