@@ -76,10 +76,10 @@ static int compare_meshes(struct pool *pool, const struct engine *engine, const 
 #define LEAST_LEFT   3
 #define MOST_REFINED 3 /* times the mesh is halved */
 #define MOST_WEIGHED 5
-#define SAME_MASS    0.1  /* standard deviations */
-#define MESH_WORTH   1.0  /* of chi2, where noise makes one a residual: from there a mesh is refined, */
-#define MESH_MOVES   0.25 /* or of the standard deviation of a parameter */
-#define NEGLIGIBLE   0.1  /* of the noise of a frequency: an error of the mesh that moves no modulus out of its interval */
+#define SAME_MASS    0.1 /* standard deviations */
+#define MESH_WORTH   1.0 /* of chi2, where noise makes one a residual: from there a mesh is refined, */
+#define MESH_MOVES   0.5 /* or of the standard deviation of a parameter */
+#define NEGLIGIBLE   0.1 /* of the noise of a frequency: an error of the mesh that moves no modulus out of its interval */
 
 static int add_numerical(struct engine *engine, const char *id, int count, const double *error, const char *text)
 {

@@ -23,11 +23,11 @@
 #define SAME    1e-6 /* and what is one value */
 #define AGREES  0.15 /* of the distance that is looked for */
 #define STEPS   7
-#define HALVED  6    /* stretches */
-#define SETTLED 0.05 /* of ln Z */
-#define TAIL    2.0  /* f */
-#define BEYOND  3    /* nodes on a side, where less */
-#define FALLEN  1.2  /* is f at the end */
+#define HALVED  4   /* stretches */
+#define SETTLED 0.1 /* of ln Z */
+#define TAIL    2.0 /* f */
+#define BEYOND  3   /* nodes on a side, where less */
+#define FALLEN  1.2 /* is f at the end */
 #define NODES   (2 * (STEPS + BEYOND) + 1 + HALVED)
 
 struct node {

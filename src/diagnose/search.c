@@ -24,7 +24,8 @@
 #define ELSEWHERE  10   /* places along the rotor from which a cause is fitted, by frequencies alone */
 #define OTHER_SIZE 4.0  /* times: of one that spans decades */
 #define AT_END     1e-3 /* of the length */
-#define PROFILES   24   /* of causes */
+#define PROFILES   24   /* of causes in sets that are */
+#define OF_BEST    5.0  /* in ln P below the best one, at most */
 
 /* Whether a set stands elsewhere than the same causes found beside another one: its fit may have ended in another minimum. */
 static int stands_elsewhere(const struct posterior *p, const struct explanation *set, const struct explanation *found)
@@ -608,7 +609,7 @@ static void drop_same(struct posterior *p, int i, int m, const double valley[2])
 static int integrate(struct engine *engine, struct posterior *p)
 {
     const struct candidate *found[PROFILES];
-    double more[PROFILES], valley[2], least = p->item[0].log_posterior - SEARCH_WITHIN;
+    double more[PROFILES], valley[2], least = p->item[0].log_posterior - OF_BEST;
     int known = 0, k;
     for (int i = 0; i < p->count; i++) {
         struct explanation *e = &p->item[i];
