@@ -81,6 +81,34 @@ POOL_TEST(what_states_share_is_possible_in_each)
     rotid_deck_free(deck);
 }
 
+/* Where a single state is copied, too. */
+POOL_TEST(changes_of_one_state_may_lack_memory)
+{
+    rotid_deck *deck = read_handle(ROTOR "*NOISE, FREQUENCY=0.001\n*MODES\n1, 300\n2, 800\n", 0, NULL);
+    const struct cause_kind *zone_kind = catalogue_find("stiffness_local");
+    struct state only;
+    const struct states states = states_of(deck_job_of(deck), &only);
+    struct effect effect = {.kind = zone_kind->effect, .name = "zone", .value = {0.3, 0.2, 0.02}};
+    const double x[] = {2e11, 8e10};
+    for (int change = 0; change < 3; change++) {
+        int status = ROTID_ERROR_MEMORY;
+        for (long n = 1; status == ROTID_ERROR_MEMORY; n++) {
+            struct failing_allocator failing;
+            struct pool pool;
+            struct states to;
+            failing_allocator_open(&failing, n);
+            pool_open(&pool, &failing.allocator);
+            status = change == 0   ? states_started_at(&pool, &states, x, &to)
+                     : change == 1 ? states_with_effect(&pool, &states, x, &effect, zone_kind, NULL, NULL, &to)
+                                   : states_hold(&pool, &states, x, 0, 2e11, &to);
+            pool_close(&pool);
+            assert_int_equal(failing.in_use, 0);
+        }
+        assert_status(status, ROTID_OK);
+    }
+    rotid_deck_free(deck);
+}
+
 static rotid_diagnosis *diagnose_text(const char *text)
 {
     const rotid_diagnose_options options = {.size = sizeof options, .threads = 2};

@@ -87,10 +87,11 @@ int job_with_effect(struct pool *pool, const struct job *from, const double *x, 
 }
 
 /* The unknowns of all are those of the one state there is. */
-static void take_bounds(struct states *to)
+static int take_bounds(struct states *to)
 {
     to->nparameter = to->state->job.unknowns.nparameter;
     to->bounds = to->state->job.unknowns.bounds;
+    return ROTID_OK;
 }
 
 int states_started_at(struct pool *pool, const struct states *states, const double *x, struct states *to)
@@ -101,10 +102,8 @@ int states_started_at(struct pool *pool, const struct states *states, const doub
         double *own = state_values(pool, &from.state[s], x);
         status = own ? job_started_at(pool, &from.state[s].job, own, &to->state[s].job) : ROTID_ERROR_MEMORY;
     }
-    if (status || from.nstate == 1) {
-        take_bounds(to);
-        return status;
-    }
+    if (status || from.nstate == 1)
+        return status ? status : take_bounds(to);
     to->bounds = POOL_ARRAY(pool, rotid_parameter, from.nparameter);
     if (!to->bounds)
         return ROTID_ERROR_MEMORY;
@@ -188,10 +187,8 @@ int states_with_effect(struct pool *pool, const struct states *from, const doubl
         if (!status && (states.nstate > 1 || to->state[s].unknown))
             status = map_unknowns(pool, added, states.nparameter, &to->state[s]);
     }
-    if (status || states.nstate == 1) {
-        take_bounds(to);
-        return status;
-    }
+    if (status || states.nstate == 1)
+        return status ? status : take_bounds(to);
     return add_bounds(pool, &states, acts, nacts, added, to);
 }
 
@@ -264,10 +261,8 @@ int states_hold(struct pool *pool, const struct states *states, const double *x,
         u->nparameter = kept;
         to->state[s].unknown = unknown;
     }
-    if (status || to->nstate == 1) {
-        take_bounds(to);
-        return status;
-    }
+    if (status || to->nstate == 1)
+        return status ? status : take_bounds(to);
     for (int q = p; q + 1 < n; q++)
         to->bounds[q] = to->bounds[q + 1];
     to->nparameter = n - 1;
