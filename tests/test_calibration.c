@@ -147,6 +147,8 @@ UNIT_TEST(a_run_from_the_priors_goes_on_from_its_log)
     }
     remove(path);
     assert_non_null(strstr(text[0], "power --prior --seed 5: 2 cases, 0 draws of them without data, 0 without a diagnosis"));
+    assert_non_null(strstr(text[0], "averaged 95 % intervals hold the true values: "));
+    assert_null(strstr(text[0], " of 0, "));
     assert_string_equal(text[0], text[1]);
     free(text[0]);
     free(text[1]);

@@ -88,7 +88,8 @@ struct prior_case {
     struct hide_text deck; /* with the data; its data are to be freed */
     struct explanation truth;
     const struct segment *segment; /* with the elements that the data were computed on */
-    int kinds, draws;              /* draws: with those whose data cannot be measured */
+    const double *x;               /* [nown] true values of the deck's parameters */
+    int nown, kinds, draws;        /* draws: with those whose data cannot be measured */
 };
 
 /* Rotor, sensors and noise of the request, an explanation, and data that the model of the diagnosis makes of it. stated: the

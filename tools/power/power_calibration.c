@@ -76,6 +76,7 @@ int power_bands(FILE *out, int count, const double *probability, const int *righ
 
 struct calibrated {
     int done, failed, right, draws;
+    int intervals, held;          /* averaged 95 % intervals, and how many hold the true value */
     double probability, of_truth; /* of_truth: 0 where the truth is not in the list */
 };
 
@@ -174,6 +175,8 @@ static void write_line(struct calibration *run, const struct power_case *c, cons
     cJSON_AddNumberToObject(line, "probability", item->probability);
     cJSON_AddNumberToObject(line, "of_truth", item->of_truth);
     cJSON_AddNumberToObject(line, "draws", item->draws);
+    cJSON_AddNumberToObject(line, "intervals", item->intervals);
+    cJSON_AddNumberToObject(line, "held", item->held);
     cJSON_AddItemToObject(line, "truth", line_of(truth));
     if (failure) {
         cJSON_AddStringToObject(line, "failure", failure);
@@ -201,6 +204,16 @@ static void compare(const struct posterior *p, const struct explanation *truth, 
         struct explanation e = p->item[i];
         double probability = with_faults(p, &e);
         item->of_truth += same_set(&e, truth) ? probability : 0;
+    }
+}
+
+/* The averages over the explanations. */
+static void judge_intervals(const struct diagnosis *d, const struct prior_case *made, struct calibrated *item)
+{
+    for (int q = 0; q < d->posterior.naveraged && q < made->nown; q++) {
+        const double *interval = d->posterior.averaged[q].ci95;
+        item->intervals++;
+        item->held += interval[0] <= made->x[q] && made->x[q] <= interval[1];
     }
 }
 
@@ -264,6 +277,8 @@ static int run_case(void *context, int index, int worker)
     item->failed = failure != NULL;
     if (!interrupted && !failure)
         compare(&d.posterior, &made.truth, &lead, item);
+    if (!interrupted && !failure)
+        judge_intervals(&d, &made, item);
     item->done = !interrupted && status != ROTID_STOP_CANCELLED;
     if (item->done)
         write_line(run, &c, &made.truth, &lead, &d.posterior, failure, item);
@@ -292,6 +307,8 @@ static int take_line(void *context, const cJSON *line)
                                                .failed = cJSON_HasObjectItem(line, "failure"),
                                                .right = cJSON_GetObjectItem(line, "right")->valueint,
                                                .draws = cJSON_GetObjectItem(line, "draws")->valueint,
+                                               .intervals = cJSON_GetObjectItem(line, "intervals")->valueint,
+                                               .held = cJSON_GetObjectItem(line, "held")->valueint,
                                                .probability = cJSON_GetNumberValue(cJSON_GetObjectItem(line, "probability")),
                                                .of_truth = cJSON_GetNumberValue(cJSON_GetObjectItem(line, "of_truth"))};
     return 0;
@@ -300,6 +317,7 @@ static int take_line(void *context, const cJSON *line)
 static int report(FILE *out, const struct calibration *run)
 {
     int cases = run->options->cases, done = 0, failed = 0, count = 0, draws = 0, unlisted = 0;
+    struct power_share intervals = {0};
     double *probability = calloc((size_t)cases, sizeof *probability), of_truth = 0;
     int *right = calloc((size_t)cases, sizeof *right), code = 3;
     for (int i = 0; i < cases && probability && right; i++) {
@@ -312,6 +330,8 @@ static int report(FILE *out, const struct calibration *run)
         if (c->failed)
             continue;
         unlisted += !(c->of_truth > 0);
+        intervals.right += c->held;
+        intervals.count += c->intervals;
         of_truth += c->of_truth > 0 ? log(c->of_truth) : 0;
         probability[count] = c->probability;
         right[count++] = c->right;
@@ -322,6 +342,10 @@ static int report(FILE *out, const struct calibration *run)
         code = power_bands(out, count, probability, right);
     fprintf(out, "ln of the probability of the truth %.3f, and in %d cases it is not listed\n",
             count > unlisted ? of_truth / (count - unlisted) : NAN, unlisted);
+    double lower, upper;
+    power_interval(intervals, &lower, &upper);
+    fprintf(out, "averaged 95 %% intervals hold the true values: %d of %d, %.1f %% (%.1f to %.1f)\n", intervals.right,
+            intervals.count, intervals.count ? 100.0 * intervals.right / intervals.count : NAN, 100 * lower, 100 * upper);
     free(probability);
     free(right);
     return code;

@@ -424,6 +424,8 @@ int power_prior_case(struct pool *pool, const struct hide_request *request, int 
         if (!status) {
             write_data(&d, &out->deck);
             out->segment = d.job.rotor.segment;
+            out->x = d.x;
+            out->nown = job->unknowns.nparameter;
         }
     }
     out->kinds = status ? 0 : power_prior_kinds(&list, !request->no_shapes);
