@@ -145,6 +145,26 @@ UNIT_TEST(two_causes_are_named_with_their_states)
     }
 }
 
+/* A mass at the start of two states of different lengths is one cause for each of them: each has its row, and both are named. */
+UNIT_TEST(a_place_in_states_of_other_lengths_is_another_cause)
+{
+    static const char *const mass[] = {"added_mass:mass=1.5,z=0.02"};
+    static const struct hidden_state states[] = {
+        {"long", "", 1, mass}, {"short", "*SET\nleft.length, 0.2\ncore.length, 0.4\nright.length, 0.2\n", 1, mass}};
+    const struct hide_request r = request(5, 10, 5);
+    rotid_diagnosis *d = diagnose(&r, states, NULL, NULL, NULL);
+    int rows[2] = {0, 0};
+    for (int i = 0; i < d->ncandidates; i++)
+        for (int s = 0; s < 2; s++)
+            rows[s] += !strcmp(d->candidates[i].cause.id, "added_mass") && !strcmp(d->candidates[i].cause.state, states[s].name);
+    assert_int_equal(rows[0], 1);
+    assert_int_equal(rows[1], 1);
+    assert_int_equal(d->verdict.kind, ROTID_NAMED);
+    assert_int_equal(d->verdict.ncauses, 2);
+    assert_string_not_equal(d->verdict.causes[0].state, d->verdict.causes[1].state);
+    rotid_diagnosis_free(d);
+}
+
 /* A deck with one *STATE is that deck without it. */
 UNIT_TEST(one_state_is_a_deck_without_states)
 {

@@ -35,7 +35,8 @@ int candidate_is_fault(const struct candidate *c)
 
 int posterior_same_cause(const struct candidate *a, const struct candidate *b)
 {
-    int same = a->cause == b->cause && a->state == b->state;
+    /* states of other lengths have a place each: there it is another cause */
+    int same = a->cause == b->cause && a->state == b->state && (!a->in || !b->in || a->in[b->home] || b->in[a->home]);
     if (!same || !candidate_is_fault(a)) /* of two channels that are one, whichever is the copy */
         return same && !strcmp(a->target, b->target);
     return (a->sensor[0] == b->sensor[0] && a->sensor[1] == b->sensor[1]) ||
