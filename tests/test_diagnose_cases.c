@@ -200,6 +200,9 @@ UNIT_TEST(a_bolted_lap_is_found)
     const struct candidate *shear = suspect(d, "lap_shear");
     assert_non_null(shear);
     assert_true(shear->result.chi2 < d->cause[0].result.chi2 + 10); /* the same zone with a parameter more */
+    const struct candidate *alone = suspect(d, "lap"), *lead = d->posterior.item[0].member;
+    assert_string_equal(lead->effect.name, "lap");
+    assert_true(alone->ci_lower[1] == lead->ci_lower[1] && alone->ci_upper[1] == lead->ci_upper[1]); /* by its profile */
     check_extended(&r);
     close_run(&r);
 }

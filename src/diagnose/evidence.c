@@ -48,15 +48,15 @@ void candidate_values(const struct refit *refit, const struct state *state, int 
 }
 
 /* Depth and width of a zone trade off: where the width ends at a bound the fit knows the depth for that width alone. And a place
- * that the fit gives no interval for, being at an end or where the modes are symmetric, has that of the scan: wherever the
- * promised drop is within 3.84 of the best. s: its candidate of the scan. */
+ * that neither the fit nor a profile gives an interval for, being at an end or where the modes are symmetric, has that of the
+ * scan: wherever the promised drop is within 3.84 of the best. s: its candidate of the scan. */
 static void mend_intervals(const struct scan *scan, const struct scan_candidate *s, struct candidate *c)
 {
     const struct cause_kind *cause = c->cause;
     int place = cause->place, width = cause->width;
     if (width >= 0 && !c->fixed[width] && !isfinite(c->std[width]))
         c->std[cause->size] = c->ci_lower[cause->size] = c->ci_upper[cause->size] = NAN;
-    if (place < 0 || c->fixed[place] || isfinite(c->std[place]) || s->best < 0)
+    if (place < 0 || c->fixed[place] || isfinite(c->ci_lower[place]) || s->best < 0)
         return;
     double lower = INFINITY, upper = -INFINITY;
     for (int i = s->first; i < s->first + s->count; i++)
