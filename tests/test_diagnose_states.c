@@ -215,6 +215,26 @@ static void assert_named(const rotid_diagnosis *d, const char *id, const char *s
     assert_true(fabs(value - truth) < upper - lower);
 }
 
+/* A state of another length that is held out has no part in whether a mass is in one of two states or in both. */
+UNIT_TEST(a_cause_is_in_one_of_two_states_beside_one_held_out_of_another_length)
+{
+#define SHORT "*SET\nleft.length, 0.2\ncore.length, 0.4\nright.length, 0.2\n"
+    static const char *const mass[] = {"added_mass:mass=1.5,z=0.02"}, *const holdout = "FIT.HOLDOUT=STATE:long";
+    static const struct hidden_state states[] = {{"long", "", 0, NULL}, {"short", SHORT, 1, mass}, {"again", SHORT, 0, NULL}};
+    const struct hide_request r = request(5, 10, 5);
+    const rotid_diagnose_options options = {.size = sizeof options, .threads = 2};
+    char message[300], *text = hidden_states_deck(&r, 3, states, NULL, message, sizeof message);
+    assert_non_null(text);
+    rotid_deck *deck = read_handle(text, 1, &holdout);
+    rotid_diagnosis *d;
+    assert_status(rotid_diagnose(deck, &options, NULL, NULL, &d), ROTID_OK);
+    print_message("%s\n", d->verdict.sentence);
+    assert_named(d, "added_mass", "short", "mass", 1.5);
+    rotid_diagnosis_free(d);
+    rotid_deck_free(deck);
+    free(text);
+}
+
 /* The extended deck, with all states in it, is fitted as the diagnosis fitted it. */
 static void assert_extended(const rotid_diagnosis *d)
 {

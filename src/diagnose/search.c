@@ -119,7 +119,8 @@ static int is_common(const struct engine *engine, const struct scan *scan, int i
 {
     const struct scan_candidate *c = &scan->candidate[index], *all = NULL;
     for (int i = 0; i < scan->ncandidate && c->state >= 0 && !all; i++)
-        if (scan->candidate[i].state < 0 && scan->candidate[i].cause == c->cause && !strcmp(scan->candidate[i].target, c->target))
+        if (scan->candidate[i].state < 0 && scan->candidate[i].cause == c->cause && scan->candidate[i].in[c->home] &&
+            !strcmp(scan->candidate[i].target, c->target))
             all = &scan->candidate[i];
     int others = 0;
     for (int s = 0, mode = 0; all && s < engine->states.nstate; mode += engine->states.state[s].job.measurement.nmode, s++)
