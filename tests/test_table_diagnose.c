@@ -768,6 +768,13 @@ static int run(const char *arguments)
     return status < 0 ? -1 : status / 256;
 }
 
+/* The table is of a speed of the diagram, which the highest running speed of 12,000 rpm need not be. */
+UNIT_TEST(stability_names_the_speed_that_it_is_of)
+{
+    assert_int_equal(run("speeds " ROTID_SOURCE_DIR "/input/motor_running.inp --draws 20 --speeds 0:100000:6"), 0);
+    assert_says("STABILITY: modes at 20000 rpm");
+}
+
 UNIT_TEST(no_option_lets_a_file_of_the_user_be_lost)
 {
 #define DECK ROTID_SOURCE_DIR "/input/solid_steel.inp"

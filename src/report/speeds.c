@@ -133,13 +133,14 @@ static void campbell_rows(struct table *t, const rotid_campbell_speed *at)
     }
 }
 
-/* The modes at the highest running speed, or the last speed of the Campbell diagram before it ends. */
+/* The modes at the first speed of the Campbell diagram from the highest running speed on, or at its last one. */
 static struct table *table_of_stability(struct pool *pool, const rotid_speeds *s)
 {
-    struct table *t = table_open(pool, "STABILITY: modes at the highest running speed");
     int at = 0;
     while (at + 1 < s->ncampbell && !(s->campbell[at].speed_rpm >= s->high_rpm))
         at++;
+    struct table *t =
+        table_open(pool, s->ncampbell ? pool_text(pool, "STABILITY: modes at %.6g rpm", s->campbell[at].speed_rpm) : "STABILITY");
     if (s->ncampbell)
         campbell_rows(t, &s->campbell[at]);
     return t;
