@@ -16,22 +16,26 @@
 static struct job job;
 static int number[16], holdout[16];
 
-static void open_bar(double noise_factor)
+static void open_deck(const char *path, int count, const struct override *list)
 {
     struct message_list messages;
-    char value[2][32];
-    snprintf(value[0], sizeof value[0], "%g", 0.003 * noise_factor);
-    snprintf(value[1], sizeof value[1], "%g", 0.03 * noise_factor);
-    const struct override list[2] = {{"NOISE", "FREQUENCY", value[0], "", NULL}, {"NOISE", "SHAPE", value[1], "", NULL}};
     message_open(&messages, &test_pool);
-    if (deck_read(&test_pool, "input/foam_bar.inp", 2, list, &messages, &job))
+    if (deck_read(&test_pool, path, count, list, &messages, &job))
         fail_msg("%s", messages.count ? messages.item[0].text : "deck");
     job.options.fit.functional = ROTID_LIKELIHOOD;
     job.options.fit.reduction = ROTID_REDUCTION_NONE;
     job.options.fit.derivative = ROTID_NELSON;
-    for (int k = 0; k < job.measurement.nmode; k++)
-        number[k] = job.measurement.number[k];
+    memcpy(number, job.measurement.number, (size_t)job.measurement.nmode * sizeof *number);
     memset(holdout, 0, sizeof holdout);
+}
+
+static void open_bar(double noise_factor)
+{
+    char value[2][32];
+    snprintf(value[0], sizeof value[0], "%g", 0.003 * noise_factor);
+    snprintf(value[1], sizeof value[1], "%g", 0.03 * noise_factor);
+    const struct override list[2] = {{"NOISE", "FREQUENCY", value[0], "", NULL}, {"NOISE", "SHAPE", value[1], "", NULL}};
+    open_deck("input/foam_bar.inp", 2, list);
 }
 
 /* The job with a cause at its best values. */
@@ -894,7 +898,6 @@ POOL_TEST(a_place_at_a_step)
     enum { N = 4 };
     static const int points[N] = {5, 5, 6, 24};
     const double value[EFFECT_MOST_PARAMETERS] = {1.24e6, 0.25};
-    struct message_list messages;
     struct states states;
     struct state one;
     struct evidence_data *data;
@@ -902,11 +905,7 @@ POOL_TEST(a_place_at_a_step)
     double mean[2], std[2], from[N], to[N], x[N], valley[2], sum = -INFINITY;
     struct evidence e = {.mean = mean, .std = std};
     rotid_fit_result *fit;
-    message_open(&messages, &test_pool);
-    assert_status(deck_read(&test_pool, "tests/data/search/place_at_a_step.inp", 0, NULL, &messages, &job), ROTID_OK);
-    job.options.fit.functional = ROTID_LIKELIHOOD;
-    memcpy(number, job.measurement.number, (size_t)job.measurement.nmode * sizeof *number);
-    memset(holdout, 0, sizeof holdout);
+    open_deck("tests/data/search/place_at_a_step.inp", 0, NULL);
     fit_with("support_rotation", value, &states, &one, &fit);
     assert_status(evidence_open(&test_pool, &states, number, holdout, &data), ROTID_OK);
     const struct profile_case c = {.data = data, .states = &states, .fit = fit, .number = number, .holdout = holdout, .nown = 2};

@@ -321,6 +321,16 @@ POOL_TEST(critical_speeds_between_rows_of_a_table_are_those_of_the_closed_form)
     }
 }
 
+/* A mass of 50 kg in the middle of a stiff shaft without one, on two bearings by a table. */
+static const char *mass_between(const char *table)
+{
+    return pool_format(&test_pool,
+                       "*MATERIAL, NAME=s\n*ELASTIC\n1e14, 0.3\n*DENSITY\n1e-3\n*SHAFT, NAME=a, MATERIAL=s\n0.5, "
+                       "0.2, 0, 2\n0.5, 0.2, 0, 2\n*RUNNING\n*DISK\n0.5, 50, 1e-3, 1e-3\n*BEARING, FILE=%s\nstart\n"
+                       "*BEARING, FILE=%s\nend\n",
+                       table, table);
+}
+
 /* Between rows of a table whose damping rises beyond critical Im lambda = sqrt(k/m - (c/2m)^2) falls from above the speed to 0,
  * and comes back. Both ends of such a row are speeds of the diagram, and at one of them there is no mode. */
 POOL_TEST(a_mode_that_is_overdamped_at_the_next_row_has_crossed_the_speed)
@@ -331,11 +341,7 @@ POOL_TEST(a_mode_that_is_overdamped_at_the_next_row_has_crossed_the_speed)
     for (int i = 0; i < 6; i++)
         table = pool_format(&test_pool, "%s%g,3e6,3e6,%g,%g\n", table, rows[i], damping[i], damping[i]);
     const char *path = folder_write("fall.csv", table);
-    const char *deck = pool_format(&test_pool,
-                                   "*MATERIAL, NAME=s\n*ELASTIC\n1e14, 0.3\n*DENSITY\n1e-3\n*SHAFT, NAME=a, MATERIAL=s\n0.5, "
-                                   "0.2, 0, 2\n0.5, 0.2, 0, 2\n*RUNNING\n*DISK\n0.5, 50, 1e-3, 1e-3\n*BEARING, FILE=%s\nstart\n"
-                                   "*BEARING, FILE=%s\nend\n",
-                                   path, path);
+    const char *deck = mass_between(path);
     struct running_case c;
     int count = 0;
     double before = 1;
@@ -362,11 +368,7 @@ POOL_TEST(a_mode_that_is_overdamped_at_the_next_row_has_crossed_the_speed)
 POOL_TEST(a_mode_that_is_overdamped_at_standstill_has_crossed_the_speed)
 {
     const char *path = folder_write("rise.csv", "speed_rpm,kxx,kyy,cxx,cyy\n0,3e6,3e6,5e4,5e4\n3000,3e6,3e6,10,10\n");
-    const char *deck = pool_format(&test_pool,
-                                   "*MATERIAL, NAME=s\n*ELASTIC\n1e14, 0.3\n*DENSITY\n1e-3\n*SHAFT, NAME=a, MATERIAL=s\n0.5, "
-                                   "0.2, 0, 2\n0.5, 0.2, 0, 2\n*RUNNING\n*DISK\n0.5, 50, 1e-3, 1e-3\n*BEARING, FILE=%s\nstart\n"
-                                   "*BEARING, FILE=%s\nend\n",
-                                   path, path);
+    const char *deck = mass_between(path);
     struct running_case c;
     assert_int_equal(running_case_open(deck, 3200, 41, 0, &c), ROTID_OK);
     assert_int_equal(c.speeds.ncritical_speeds, 2);

@@ -826,10 +826,10 @@ int evidence_profile(const struct scan *scan, const struct states *states, const
 
 /* Unknown p of a fit with causes, a place between its bounds [m] or a width, logarithmic, by its profile (profile.c). Its 95 %
  * interval goes into the fit: where the least chi2 of all other unknowns is within 3.84 of that of the fit, times the square by
- * which its intervals are widened, to a hundredth of the range or a seventh of the distance. The integral over it goes into *out:
- * what that makes beyond evidence_of_fit is added to its ln Z, the moments of the nown unknowns take the place of those there;
- * data NULL: not asked for, out and valley are not used. valley: where Z falls to e^-4 of the largest, left alone without.
- * Statuses of memory, cancellation, library. Time: three to twenty fits. */
+ * which its intervals are widened, to a hundredth of the range or a seventh of the distance. In *out, the evidence_of_fit, ln Z
+ * and the moments of the nown unknowns become those with the integral over it; data NULL: not asked for, out and valley are not
+ * used. valley: where Z falls to e^-4 of the largest. Both are left alone where there is no integral. Statuses of memory,
+ * cancellation, library. Time: three to twenty fits. */
 struct profile_case {
     const struct evidence_data *data;
     const struct states *states; /* with the bounds of the fit */

@@ -49,17 +49,22 @@ static double value_of(const struct profile *profile, double t)
     return profile->logarithmic ? exp(t) : t;
 }
 
+/* The node nearest to t; there is one. */
+static int nearest(const struct profile *profile, double t)
+{
+    const struct node *node = profile->node;
+    int at = 0;
+    for (int i = 1; i < profile->count; i++)
+        if (fabs(node[i].t - t) < fabs(node[at].t - t))
+            at = i;
+    return at;
+}
+
 /* Where the fit with the unknown held at t begins: at the nearest one there is. */
 static const double *start_for(const struct profile *profile, double t)
 {
-    const double *x = profile->c->fit->x;
-    double apart = fabs(profile->best - t);
-    for (int i = 0; i < profile->count; i++)
-        if (fabs(profile->node[i].t - t) < apart) {
-            apart = fabs(profile->node[i].t - t);
-            x = profile->node[i].x;
-        }
-    return x;
+    int at = profile->count ? nearest(profile, t) : -1;
+    return at < 0 || fabs(profile->best - t) <= fabs(profile->node[at].t - t) ? profile->c->fit->x : profile->node[at].x;
 }
 
 /* The fit at t among the nodes. */
@@ -168,10 +173,7 @@ static void stretch(const struct profile *profile, int i, const struct node **fr
 static void keep_valley(struct profile *profile, const double end[2])
 {
     struct node *node = profile->node;
-    int at = 0, first = 0, last = profile->count - 1;
-    for (int i = 0; i < profile->count; i++)
-        if (fabs(node[i].t - profile->best) < fabs(node[at].t - profile->best))
-            at = i;
+    int at = nearest(profile, profile->best), first = 0, last = profile->count - 1;
     for (int side = -1; side < 2; side += 2) {
         double most = node[at].log_z;
         int i = at;
@@ -262,10 +264,7 @@ static int settle(struct profile *profile, double end[2], double *log_z)
 static double valley_end(const struct profile *profile, int side)
 {
     const struct node *node = profile->node;
-    int i = 0;
-    for (int k = 0; k < profile->count; k++)
-        if (fabs(node[k].t - profile->best) < fabs(node[i].t - profile->best))
-            i = k;
+    int i = nearest(profile, profile->best);
     const struct node *before = &node[i];
     while (node[i].f < TAIL && i + side >= 0 && i + side < profile->count) {
         before = &node[i];
@@ -319,17 +318,12 @@ int profile_unknown(struct pool *pool, const struct profile_case *c, int p, int 
         return status;
     for (int side = 0; side < 2; side++)
         *(side ? &fit->ci_upper[p] : &fit->ci_lower[p]) = value_of(&profile, end[side]);
-    struct evidence laplace = {.mean = POOL_ARRAY(pool, double, c->nown + 1), .std = POOL_ARRAY(pool, double, c->nown + 1)};
-    if (!laplace.mean || !laplace.std)
-        return ROTID_ERROR_MEMORY;
     if (!c->data || profile.count < 2)
         return ROTID_OK;
     status = settle(&profile, end, &log_z);
-    if (!status)
-        status = evidence_of_fit(c->data, c->states, c->nown, fit, c->nmember, c->member, c->nfault, c->fault, NULL, &laplace);
-    if (status || !isfinite(laplace.log_z) || !isfinite(log_z))
+    if (status || !isfinite(log_z))
         return status;
-    out->log_z += log_z - laplace.log_z;
+    out->log_z = log_z;
     average(&profile, out);
     for (int side = 0; side < 2; side++)
         valley[side] = value_of(&profile, valley_end(&profile, side ? 1 : -1));

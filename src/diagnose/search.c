@@ -552,37 +552,6 @@ static int expand(struct engine *engine, struct round_result *result, struct pos
     return status;
 }
 
-/* The profile of a free unknown of member m of a set, its place or its width: the interval goes into the member, the integral
- * over it into the evidence, but for a place beside a free width: at each width the normal knows the place well. */
-static int profile_member(struct engine *engine, struct explanation *e, int m, int component, double valley[2])
-{
-    struct fault_column column[2 * MOST_MEMBERS];
-    struct candidate *c = &e->member[m];
-    const struct state *home = &e->refit->states.state[c->home];
-    int p = effect_unknown(home, effect_named(home, c->effect.name), component), width = component == c->cause->width,
-        is_integrated = width || c->cause->width < 0 || c->fixed[c->cause->width];
-    if (p < 0 || (width && !(e->refit->states.bounds[p].lower > 0)))
-        return ROTID_OK;
-    struct profile_case profile = {.data = is_integrated ? e->data : NULL,
-                                   .states = &e->refit->states,
-                                   .fit = e->refit->fit,
-                                   .number = engine->number,
-                                   .holdout = engine->holdout,
-                                   .nown = engine->nown,
-                                   .nmember = e->nmember,
-                                   .member = e->member,
-                                   .fault = column,
-                                   .environment = engine->environment};
-    int status = explanation_faults(engine, e, column, &profile.nfault);
-    if (!status)
-        status = profile_unknown(engine->pool, &profile, p, width, &e->evidence, valley);
-    if (status)
-        return status;
-    c->ci_lower[component] = e->refit->fit->ci_lower[p];
-    c->ci_upper[component] = e->refit->fit->ci_upper[p];
-    return ROTID_OK;
-}
-
 /* The same set with its cause at another place within the valley of the first one is the first one. */
 static void drop_same(struct posterior *p, int i, int m, const double valley[2])
 {
@@ -604,45 +573,80 @@ static void drop_same(struct posterior *p, int i, int m, const double valley[2])
     }
 }
 
+/* More of ln Z, also for something else beside the set. */
+static void add_evidence(struct explanation *e, double more)
+{
+    e->outside += more;
+    e->evidence.log_z += more;
+    e->log_posterior += more;
+}
+
+/* The profiles of the width and the place of member m of set i, where they are free: intervals into the member, the integral into
+ * the evidence, but for a place beside a free width: at each width the normal knows the place well. */
+static int profile_member(struct engine *engine, struct posterior *p, int i, int m)
+{
+    struct fault_column column[2 * MOST_MEMBERS];
+    struct explanation *e = &p->item[i];
+    struct candidate *c = &e->member[m];
+    const struct state *home = &e->refit->states.state[c->home];
+    const int component[2] = {c->cause->width, c->cause->place}, is_zone = component[0] >= 0 && !c->fixed[component[0]];
+    struct profile_case profile = {.states = &e->refit->states,
+                                   .fit = e->refit->fit,
+                                   .number = engine->number,
+                                   .holdout = engine->holdout,
+                                   .nown = engine->nown,
+                                   .nmember = e->nmember,
+                                   .member = e->member,
+                                   .fault = column,
+                                   .environment = engine->environment};
+    int status = explanation_faults(engine, e, column, &profile.nfault);
+    for (int j = is_zone ? 0 : 1; j < 2 && !status; j++) {
+        int q = c->fixed[component[j]] ? -1 : effect_unknown(home, effect_named(home, c->effect.name), component[j]);
+        double valley[2] = {INFINITY, -INFINITY};
+        struct evidence evidence = e->evidence; /* of the fit alone */
+        evidence.log_z -= e->outside;
+        if (q < 0 || (!j && !(profile.states->bounds[q].lower > 0)))
+            continue;
+        profile.data = j && is_zone ? NULL : e->data;
+        status = profile_unknown(engine->pool, &profile, q, !j, &evidence, valley);
+        add_evidence(e, evidence.log_z - (e->evidence.log_z - e->outside));
+        c->ci_lower[component[j]] = profile.fit->ci_lower[q];
+        c->ci_upper[component[j]] = profile.fit->ci_upper[q];
+        if (j && !status)
+            drop_same(p, i, m, valley);
+    }
+    return status;
+}
+
 /* Places and free widths of the sets that count by their profiles, each cause in the likeliest set that was fitted with it there:
  * the others take from there what that makes of the evidence, but for the last member of a set by columns, the mean over all
  * places. Of what is a solid beside beams, whose fits take a hundred times as long, the fit's own does. */
 static int integrate(struct engine *engine, struct posterior *p)
 {
     const struct candidate *found[PROFILES];
-    double more[PROFILES], valley[2], least = p->item[0].log_posterior - OF_BEST;
+    double more[PROFILES], least = p->item[0].log_posterior - OF_BEST;
     int known = 0, k;
     for (int i = 0; i < p->count; i++) {
         struct explanation *e = &p->item[i];
-        int counts = e->log_posterior > least && e->refit;
-        for (int m = 0; m < e->nmember - !e->refit; m++) {
-            struct candidate *c = &e->member[m];
-            const int component[2] = {c->cause->width, c->cause->place};
-            double before = e->evidence.log_z;
-            if ((e->refit && e->refit->states.state->job.options.solid != engine->job->options.solid) || !isfinite(before) ||
-                component[1] < 0)
+        int is_foreign = e->refit && e->refit->states.state->job.options.solid != engine->job->options.solid,
+            counts = e->log_posterior > least && e->refit;
+        for (int m = 0; m < e->nmember - !e->refit && !is_foreign && isfinite(e->evidence.log_z); m++) {
+            const struct candidate *c = &e->member[m];
+            double before = e->outside;
+            if (c->cause->place < 0)
                 continue;
             for (k = 0; k < known; k++)
                 if (posterior_same_model(found[k], c) && posterior_same_name(p, found[k], c))
                     break;
-            for (int j = 0; j < 2 && k == known && counts && known < PROFILES; j++) {
-                valley[0] = INFINITY;
-                valley[1] = -INFINITY;
-                int status =
-                    component[j] < 0 || c->fixed[component[j]] ? ROTID_OK : profile_member(engine, e, m, component[j], valley);
+            if (k < known) {
+                add_evidence(e, more[k]);
+            } else if (counts && known < PROFILES) {
+                int status = profile_member(engine, p, i, m);
                 if (status)
                     return status;
-                if (component[j] == c->cause->place)
-                    drop_same(p, i, m, valley);
-            }
-            if (k < known) {
-                e->evidence.log_z += more[k];
-            } else if (counts && known < PROFILES) {
-                more[known] = e->evidence.log_z - before;
+                more[known] = e->outside - before;
                 found[known++] = c;
             }
-            e->outside += e->evidence.log_z - before; /* for something else beside this set, too */
-            e->log_posterior += e->evidence.log_z - before;
         }
     }
     return ROTID_OK;
