@@ -64,7 +64,7 @@ struct deck_row {
     }
 #define OPTION(O) OTHER(O, .what = "")
 #define OPTIONAL  .bits = ROW_MAY_LACK
-#define OR_NAN    .bits = ROW_MAY_LACK | ROW_NAN
+#define OR_NAN    .bits = (ROW_MAY_LACK | ROW_NAN)
 #define LAST                                                                                                                     \
     {                                                                                                                            \
         .option = NULL, .what = NULL                                                                                             \
