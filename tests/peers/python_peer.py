@@ -481,7 +481,14 @@ def from_nastran(checks, folder):
     said = written(rotid.from_nastran(path, units="MM"), deck)
     cone = [s["outer_m"] for g in rotid.run("check", deck)["geometry"]["groups"] for s in g["segments"]]
     checks.true("from Nastran: a tapered PBEAML is cylinders", len(cone) == 10 and cone[1] > cone[8] and not said, cone)
+    path.write_text(bulk().replace("GRID,1,,0.,0.,0.", "GRID,1,,0.,0.,0.,,123456"))
+    said = written(rotid.from_nastran(path, units="MM"), deck)
+    checks.true("from Nastran: constraints of a GRID are said to be left out", any("PS of GRID" in s for s in said), said)
+    a, i = math.pi * 80**2, math.pi / 4 * 80**4
+    beside = f"PBEAM,2,1,{a:.6f},{i:.4f},{i:.4f},,{2 * i:.4f},,+\n+,,,,,,,,,+\n+,1.,1.,,,,,,,+\n+,,,,,5.\n"
     wrong = {
+        "a neutral axis beside the nodes": (bulk().replace("PBEAML,2,1,,TUBE\n,80.,20.\n", beside), "PBEAM 2: its neutral axis"),
+        "a station that is no end": (bulk().replace("PBEAML,2,1,,TUBE\n,80.,20.\n", "PBEAML,2,1,,ROD\n,80.,0.,NO,0.5,50.\n"), "PBEAML 2: has stations at [0.0, 0.5]"),
         "an offset": (bulk().replace("CBAR,1,1,1,2,0.,1.,0.", "CBAR,1,1,1,2,0.,1.,0.,,+\n+,,,0.,5."), "CBAR 1: wa"),
         "a pin": (bulk().replace("CBAR,1,1,1,2,0.,1.,0.", "CBAR,1,1,1,2,0.,1.,0.,,+\n+,5"), "CBAR 1: pin flags"),
         "a node beside the axis": (bulk().replace("GRID,2,,300.,0.", "GRID,2,,300.,9."), "beside the axis"),
@@ -578,7 +585,21 @@ def from_abaqus(checks, folder):
     path.write_text(ABAQUS.replace("2.1E11, 0.3", "2.1E11, 0.3, 20.\n1.6E11, 0.3, 500."))
     said = written(rotid.from_abaqus(path), deck)
     checks.true("from Abaqus: the temperature of E is said", any("of E at 2 temperatures the first one, 2.1e+11, is taken" in s for s in said), said)
+    path.write_text(ABAQUS.replace("*FREQUENCY", "*BOUNDARY\n1, 1, 3\n*FREQUENCY"))
+    said = written(rotid.from_abaqus(path), deck)
+    checks.true("from Abaqus: *BOUNDARY of a step is said to be left out", any("BOUNDARY" in s for s in said), said)
+    sheets = ABAQUS.replace("*ELASTIC\n2.1E11, 0.3", "*ELASTIC, TYPE=ENGINEERING CONSTANTS\n2.1E11, 5E10, 5E10, .3, .3, .3, 3E10, 3E10\n2E10")
+    along_x = re.sub(r"(?m)^(\d), 0., 0., (\S+)$", r"\1, \2, 0., 0.", sheets).replace("0.02, 0.02, 0.03", "0.03, 0.02, 0.02").replace("SUPPORT\n1\n", "SUPPORT\n2\n")
+    path.write_text(along_x)
+    written(rotid.from_abaqus(path), deck)
+    got = rotid.run("check", deck)["geometry"]["groups"][0]["material"]
+    checks.true("from Abaqus: E1 and G12 of a rotor along axis 1", got["e_pa"] == 2.1e11 and got["g_pa"] == 3e10, got)
     wrong = {
+        "sheets across another axis": (sheets, "line 18: *ELASTIC: is of the axes of the file"),
+        "sheets of two shear moduli": (along_x.replace("3E10, 3E10", "3E10, 2E10"), "line 19: *ELASTIC: G12 is 3e+10 and G13 2e+10"),
+        "lines of another file": (ABAQUS.replace("*ELEMENT, TYPE=MASS, ELSET=HUB\n10, 2", "*ELSET, ELSET=HUB\n*ELEMENT, TYPE=MASS, ELSET=HUB, INPUT=hub.inp"), "INPUT=hub.inp is another file"),
+        "a spring aslant": (re.sub(r"(?m)^(\d), 0., 0., (\S+)$", r"\1, \2, 0., \2", ABAQUS).replace("SUPPORT\n1\n", "SUPPORT\n3\n").replace("0.02, 0.02, 0.03", "0.02, 0.02, 0.02"),
+                            "acts on degree of freedom 3"),
         "another element": (ABAQUS.replace("TYPE=B31, ELSET=LEFT", "TYPE=B32, ELSET=LEFT"), "line 8: *ELEMENT: TYPE=B32"),
         "a card that it does not know": (ABAQUS.replace("*STEP", "*EQUATION\n1\n*STEP"), "*EQUATION: has no place in a deck"),
         "a section that is not round": (ABAQUS.replace("SECTION=CIRC", "SECTION=RECT"), "line 22: *BEAM SECTION: SECTION=RECT is not round"),

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .chain import Beam, Mass, Spring, in_si, rotor_of, units_of
+from .chain import STRAIGHT, Beam, Mass, Spring, in_si, rotor_of, units_of
 from .rotor import Material, refuse
 
 BEAMS = ("B31", "B31R")
@@ -90,12 +90,14 @@ class Reader:
         for card in cards_of(self.source):
             if card.name in ("STEP", "END STEP"):
                 in_step = card.name == "STEP"
+            elif card.name in LEFT_OUT:  # in a step as well
+                self.notes[f"*{card.name} is left out: {LEFT_OUT[card.name]}"] = None
             elif in_step or card.name in PASSED:
                 continue
+            elif "INPUT" in card.options:
+                card.wrong(f"INPUT={card.options['INPUT'][:40]} is another file, expected its lines here")
             elif card.name == "ELSET":
                 sets.append(card)
-            elif card.name in LEFT_OUT:
-                self.notes[f"*{card.name} is left out: {LEFT_OUT[card.name]}"] = None
             else:
                 reader = getattr(self, card.name.lower().replace(" ", "_"), None) if card.name in READ else None
                 if not reader:
@@ -156,7 +158,10 @@ class Reader:
         line, fields = card.rows[0]
         if card.options.get("TYPE", "ISO").upper().startswith("ENG"):
             fields = [field for _, more in card.rows for field in more]
-            e, g = value(card, line, fields, 0, "E1", 0), value(card, line, fields, 6, "G12", 0)
+            e, g, other = (value(card, line, fields, at, name, 0) for at, name in ((0, "E1"), (6, "G12"), (7, "G13")))
+            if g != other:
+                card.wrong(f"G12 is {g:g} and G13 {other:g}, expected the same across axis 1", line)
+            self.current["of_axes"] = card
         else:
             e, nu = value(card, line, fields, 0, "E", 0), value(card, line, fields, 1, "Poisson's ratio", default=0.0)
             if len(card.rows) > 1:
@@ -238,6 +243,8 @@ class Reader:
         for key, word in (("e", "*ELASTIC"), ("rho", "*DENSITY")):
             if not material.get(key):
                 refuse(self.source, f"line {material['line']}", f"*MATERIAL, NAME={name[:40]} has no {word}, expected one above zero")
+        if "of_axes" in material and not self.is_across(2, 3):
+            material["of_axes"].wrong("is of the axes of the file, expected the rotor along axis 1, that of E1 and G12")
         if "made" not in material:
             material["made"] = Material.of(name, material["e"], material["g"], material["rho"], self.notes)
         return material["made"]
@@ -266,13 +273,17 @@ class Reader:
         return rotor_of(self.source, f"From input of Abaqus or CalculiX {str(self.source).rsplit('/', 1)[-1]}", self.place, beams, masses,
                         self.lateral(springs), self.notes)
 
+    def is_across(self, *directions):
+        """Whether the rotor has no extent in these directions of the file."""
+        used = np.array([self.place[n] for kind, nodes, _ in self.elements.values() if kind in BEAMS for n in nodes if n in self.place])
+        extent = np.ptp(used, axis=0)
+        return all(extent[d - 1] <= STRAIGHT * extent.max() for d in directions)
+
     def lateral(self, springs):
         """Springs across the axis, the same in both directions or in one."""
-        used = np.array([self.place[n] for kind, nodes, _ in self.elements.values() if kind in BEAMS for n in nodes])
-        along = int(np.argmax(np.ptp(used, axis=0))) + 1 if len(used) else 3
         for node, found in springs.items():
             for dof, _, number, card in found:
-                if dof == along or dof not in (1, 2, 3):
+                if dof not in (1, 2, 3) or not self.is_across(dof):
                     card.wrong(f"spring {number} acts on degree of freedom {dof}, expected one across the axis, from 1 to 3")
             sums = {}
             for dof, stiffness, _, _ in found:
@@ -287,7 +298,8 @@ READ = {"NODE", "ELEMENT", "ELSET", "MATERIAL", "ELASTIC", "DENSITY", "BEAM SECT
 
 def from_abaqus(source, units="SI"):
     """An input file of Abaqus or CalculiX as a Rotor. units: SI, or MM for mm, t, N, MPa. B31 with round sections (CIRC, PIPE), MASS and
-    ROTARYI as disks, SPRING1 across the axis. RotidError with file and line for all that has no deck; steps are passed over."""
+    ROTARYI as disks, SPRING1 across the axis. RotidError with file and line for all that has no deck; steps are passed over, of their
+    *BOUNDARY with a warning."""
     reader = Reader(source, units_of(units))
     reader.read()
     return reader.rotor()

@@ -33,7 +33,7 @@ def from_nastran(source, units="SI"):
     for card, count in sorted(model.card_count.items()):
         if card not in LEFT_OUT | ATTACHED:
             refuse(source, card, f"{count} of them have no place in a deck, expected CBAR, CBEAM and CONM2 with what they refer to")
-    left = sorted(set(model.card_count) & {"SPC", "SPC1", "SPCADD", "MPC"})
+    left = sorted(set(model.card_count) & {"SPC", "SPC1", "SPCADD", "MPC"}) + ["PS of GRID"] * any(grid.ps for grid in model.nodes.values())
     if left:
         notes[f"{', '.join(left)} are left out: state supports as *SPRING"] = None
     factor = model.params["WTMASS"].values[0] if "WTMASS" in model.params else 1
@@ -74,6 +74,8 @@ def beam_of(source, model, number, element, materials, scale, notes):
     of = f"{properties.type} {properties.pid}"
     if np.any(np.atleast_1d(np.asarray(properties.nsm, dtype=float))):
         refuse(source, of, "has non-structural mass, expected a density")
+    if any(getattr(properties, name, 0) for name in ("n1a", "n2a", "n1b", "n2b")):
+        refuse(source, of, "its neutral axis lies beside its nodes, expected no offset")
     sections = [tuple(in_si(d, scale["length"]) for d in section) for section in SECTIONS[properties.type](source, of, properties)]
     outer, inner = zip(*sections)
     for o, i in sections:
@@ -118,7 +120,7 @@ def of_pbeam(source, of, p):
 def stations_of(source, of, p):
     """The first and the last station; between them the section is taken as linear, as Nastran takes it."""
     places = [float(x) for x in p.xxb]
-    if len(places) > 2 or sorted(places)[0] != 0:
+    if places not in ([0.0], [0.0, 1.0]):
         refuse(source, of, f"has stations at {places}, expected one section or one at each end")
     return [0, len(places) - 1]
 
