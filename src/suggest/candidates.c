@@ -93,12 +93,9 @@ int joint_chi2(struct pool *pool, const struct rival *b, const struct test *test
 
 #define MOST_OF_SET 3 /* rivals, of which all pairs are taken */
 
-static const struct effect_kind nothing = {.id = "none"};
-
 static int one_pair(struct pool *pool, const struct rivals *rivals, const struct rival *a, const struct rival *b,
                     const struct places *places, double frequency_std, double shape_std, struct design *d)
 {
-    struct effect none = {.kind = &nothing};
     struct columns *c = POOL_NEW(pool, struct columns);
     const struct planned plan = {rivals->nmode, rivals->number, frequency_std, shape_std};
     struct job source, job;
@@ -113,7 +110,7 @@ static int one_pair(struct pool *pool, const struct rivals *rivals, const struct
     if (status)
         return status;
     job.measurement = source.measurement;
-    status = columns_open(pool, &job, job.measurement.number, job.measurement.holdout, &none, b->x, c);
+    status = columns_open(pool, &job, job.measurement.number, job.measurement.holdout, NULL, b->x, c);
     if (!status)
         status = columns_prepare(c);
     if (!status)
@@ -136,12 +133,7 @@ static int one_pair(struct pool *pool, const struct rivals *rivals, const struct
         q++;
     }
     memcpy(d->column + (ptrdiff_t)used * c->nrow, c->r, (size_t)c->nrow * sizeof *c->r);
-    for (int k = 0; k < d->nmode && !status; k++)
-        for (int i = 0; i < d->nplace; i++) {
-            ptrdiff_t cell = i + (ptrdiff_t)k * d->nplace;
-            d->scale[cell] = c->mode[k].weighted[i];
-            d->largest[cell] = fabs(job.measurement.shape[cell]);
-        }
+    design_take_shapes(c, d);
     return status;
 }
 
@@ -243,16 +235,9 @@ static int compare_tests(const void *left, const void *right)
 /* The frequencies that the best rival expects, for the comments of the deck. */
 static int expect_hz(struct pool *pool, const struct rival *best, struct test *t)
 {
-    double *x = POOL_ARRAY(pool, double, best->job.unknowns.nparameter);
-    int *own = POOL_ARRAY(pool, int, best->job.unknowns.nparameter);
-    struct job job;
-    const struct planned plan = {t->modes, t->number, t->frequency_std, 0};
-    if (!x || !own)
-        return ROTID_ERROR_MEMORY;
-    int status = test_apply(pool, t, &best->job, best->x, &job, x, own);
-    if (!status)
-        status = planned_measure(pool, &job, x, &plan, &job);
-    t->hz = status ? NULL : job.measurement.frequency_hz;
+    struct job_measurement measured;
+    int status = joint_measurement(pool, best, best->x, t, &measured);
+    t->hz = status ? NULL : measured.frequency_hz;
     return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
 }
 

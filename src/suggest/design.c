@@ -25,6 +25,16 @@ int design_new(struct pool *pool, int nmode, int nplace, int nwhole, int nparam,
     return d->column && d->scale && d->largest && d->prior ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
+void design_take_shapes(const struct columns *c, struct design *d)
+{
+    for (int k = 0; k < d->nmode; k++)
+        for (int i = 0; i < d->nplace; i++) {
+            ptrdiff_t cell = i + (ptrdiff_t)k * d->nplace;
+            d->scale[cell] = c->mode[k].weighted[i];
+            d->largest[cell] = fabs(c->job->measurement.shape[cell]);
+        }
+}
+
 static int columns_of(const struct design *d)
 {
     return d->nparam + d->ntarget;

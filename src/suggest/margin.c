@@ -7,8 +7,6 @@
 #include "diagnose/diagnose.h"
 #include "linalg/linalg.h"
 
-static const struct effect_kind nothing = {.id = "none"};
-
 struct side { /* a rival in the state of a test */
     int nrow, n, nscale;
     double *j;      /* [nrow * n] relative parameters that are not pressed against a bound */
@@ -87,7 +85,6 @@ static int factor_both(struct pool *pool, const struct rival *rival, const int *
 static int side_open(struct pool *pool, const struct rival *b, const struct test *test, const struct job_measurement *measured,
                      struct side *s)
 {
-    struct effect none = {.kind = &nothing};
     struct columns *c = POOL_NEW(pool, struct columns);
     int nparameter = b->job.unknowns.nparameter;
     double *x = POOL_ARRAY(pool, double, nparameter);
@@ -100,7 +97,7 @@ static int side_open(struct pool *pool, const struct rival *b, const struct test
     if (status)
         return status;
     job.measurement = *measured;
-    status = columns_open(pool, &job, measured->number, measured->holdout, &none, x, c);
+    status = columns_open(pool, &job, measured->number, measured->holdout, NULL, x, c);
     if (!status)
         status = columns_prepare(c);
     if (status)
@@ -145,18 +142,10 @@ static int open_sides(struct pool *pool, const struct rivals *rivals, const stru
                       int *feasible)
 {
     const struct rival *a = &rivals->rival[truth];
-    const struct planned plan = {test->modes, test->number, test->frequency_std, test->nsensor ? test->shape_std : 0};
-    int nparameter = a->job.unknowns.nparameter;
-    double *x = POOL_ARRAY(pool, double, nparameter);
-    int *own = POOL_ARRAY(pool, int, nparameter);
-    struct job job;
-    if (!x || !own)
-        return ROTID_ERROR_MEMORY;
-    int status = test_apply(pool, test, &a->job, a->x, &job, x, own);
-    if (!status)
-        status = planned_measure(pool, &job, x, &plan, &job);
+    struct job_measurement measured;
+    int status = joint_measurement(pool, a, a->x, test, &measured);
     for (int b = 0; b < rivals->n && !status; b++)
-        status = side_open(pool, &rivals->rival[b], test, &job.measurement, &side[b]);
+        status = side_open(pool, &rivals->rival[b], test, &measured, &side[b]);
     *feasible = !status;
     return status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED ? status : ROTID_OK;
 }

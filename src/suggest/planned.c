@@ -44,12 +44,17 @@ int planned_sensors(struct pool *pool, const struct job *from, int n, const doub
     return ROTID_OK;
 }
 
+static int number_of(const struct planned *plan, int k)
+{
+    return plan->number ? plan->number[k] : k + 1;
+}
+
 int planned_measure(struct pool *pool, const struct job *source, const double *x, const struct planned *plan, struct job *to)
 {
     int highest = 0, n = source->rotor.nsensor, modes = plan->modes;
     struct spectrum s;
     for (int k = 0; k < modes; k++)
-        highest = plan->number[k] > highest ? plan->number[k] : highest;
+        highest = number_of(plan, k) > highest ? number_of(plan, k) : highest;
     int status = spectrum_compute_parts(pool, source->models, &source->rotor, source->unknowns.nparameter,
                                         source->unknowns.parameter, x, ROTID_REDUCTION_NONE, highest, 0, &s);
     if (status || s.count < highest)
@@ -68,12 +73,12 @@ int planned_measure(struct pool *pool, const struct job *source, const double *x
     if (!m.number || !m.holdout || !m.frequency_hz || !m.frequency_std || !m.damping || pool->out_of_memory)
         return ROTID_ERROR_MEMORY;
     for (int k = 0; k < modes; k++) {
-        m.number[k] = plan->number[k];
-        m.frequency_hz[k] = s.full_hz[plan->number[k] - 1];
+        m.number[k] = number_of(plan, k);
+        m.frequency_hz[k] = s.full_hz[m.number[k] - 1];
         m.frequency_std[k] = plan->frequency_std;
         m.damping[k] = NAN;
         for (int i = 0; i < n && m.shape; i++) {
-            m.shape[i + (ptrdiff_t)k * n] = s.shape[i + (ptrdiff_t)(plan->number[k] - 1) * n];
+            m.shape[i + (ptrdiff_t)k * n] = s.shape[i + (ptrdiff_t)(m.number[k] - 1) * n];
             m.shape_std[i + (ptrdiff_t)k * n] = plan->shape_std;
         }
     }
@@ -84,11 +89,16 @@ int planned_measure(struct pool *pool, const struct job *source, const double *x
     return ROTID_OK;
 }
 
-int planned_weigh(struct pool *pool, const struct job *from, const double *x, struct job *to)
+int planned_test(struct pool *pool, const struct job *job, const double *x, int n, const double *z, const struct planned *plan,
+                 struct job *to)
 {
+    const struct weighed *stated = &job->measurement.weighed;
     struct mass_properties mass;
-    int status = model_weigh(pool, to->models, &to->rotor, to->unknowns.nparameter, to->unknowns.parameter, x, &mass);
-    const struct weighed *stated = &from->measurement.weighed;
+    int status = planned_sensors(pool, job, n, z, to);
+    if (!status)
+        status = planned_measure(pool, to, x, plan, to);
+    if (!status)
+        status = model_weigh(pool, to->models, &to->rotor, to->unknowns.nparameter, to->unknowns.parameter, x, &mass);
     if (!status)
         to->measurement.weighed = (struct weighed){mass.mass, stated->mass_std, mass.center, stated->centre_std};
     return status;

@@ -55,11 +55,7 @@ static int add(struct pool *pool, const struct states *states, const rotid_fit_r
     return rival->x && rival->label ? states_copy(pool, states, &rival->states) : ROTID_ERROR_MEMORY;
 }
 
-static int by_score(const void *left, const void *right)
-{
-    double a = ((const struct rival *)left)->score, b = ((const struct rival *)right)->score;
-    return (a > b) - (a < b);
-}
+ORDER_BY(by_score, struct rival, it->score, 0)
 
 /* By their probabilities; among: what they have together, the model as it is and something else being the rest. */
 static void share(struct rivals *rivals)

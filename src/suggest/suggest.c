@@ -114,44 +114,29 @@ static int fill(struct columns *c, const struct job *job, const double *x, const
         for (int r = 0; r < rows; r++)
             column[r] *= t->typical[i];
     }
-    for (int k = 0; k < d->nmode && !status; k++)
-        for (int i = 0; i < d->nplace; i++) {
-            ptrdiff_t cell = i + (ptrdiff_t)k * d->nplace;
-            d->scale[cell] = c->mode[k].weighted[i];
-            d->largest[cell] = fabs(job->measurement.shape[cell]);
-        }
+    design_take_shapes(c, d);
     return status;
 }
 
 /* The columns of the job's parameters at x [nparameter], relative ones with a prior of 100 %, and as targets those of every cause
- * of the catalogue that has a derivative, times the size worth looking for; causes with a place at several. Modes are the first
- * `modes`. Statuses of columns_open and planned_measure. */
-static int plan_design(struct pool *pool, const struct job *job, const double *x, const struct places *places, int modes,
-                       double frequency_std, double shape_std, struct design *design)
+ * of the catalogue that has a derivative, times the size worth looking for; causes with a place at several. Statuses of
+ * columns_open and planned_test. */
+static int plan_design(struct pool *pool, const struct job *job, const double *x, const struct places *places,
+                       const struct planned *plan, struct design *design)
 {
     struct effect none = {.kind = &plan_design_nothing};
     struct columns *c = POOL_NEW(pool, struct columns);
     struct targets targets;
     struct job at;
-    int *number = POOL_ARRAY(pool, int, modes), *holdout = POOL_ARRAY(pool, int, modes);
-    if (!c || !number || !holdout)
-        return ROTID_ERROR_MEMORY;
-    for (int k = 0; k < modes; k++)
-        number[k] = k + 1;
-    const struct planned plan = {modes, number, frequency_std, shape_std};
-    int status = planned_sensors(pool, job, places->n, places->z, &at);
-    if (!status)
-        status = planned_measure(pool, &at, x, &plan, &at);
-    if (!status)
-        status = planned_weigh(pool, job, x, &at);
+    int status = c ? planned_test(pool, job, x, places->n, places->z, plan, &at) : ROTID_ERROR_MEMORY;
     if (!status)
         status = list_targets(pool, &at, &targets);
     if (!status)
-        status = columns_open(pool, &at, number, holdout, &none, x, c);
+        status = columns_open(pool, &at, at.measurement.number, at.measurement.holdout, &none, x, c);
     if (!status)
         status = columns_prepare(c);
     if (!status)
-        status = design_new(pool, modes, places->n, c->functional.nwhole, job->unknowns.nparameter, targets.n, design);
+        status = design_new(pool, plan->modes, places->n, c->functional.nwhole, job->unknowns.nparameter, targets.n, design);
     return status ? status : fill(c, &at, x, &targets, design);
 }
 
@@ -193,15 +178,21 @@ static double widest(int n, const double *half_width)
     return most;
 }
 
+static int count_of(int n, const int *taken)
+{
+    int count = 0;
+    for (int i = 0; i < n; i++)
+        count += taken[i];
+    return count;
+}
+
 static int add_plan(struct planning *p, const char *method, int *taken)
 {
     const struct places *places = p->places;
     rotid_sensor_plan *plan = &p->out->plans[p->out->nplans++];
-    int count = 0, i = 0;
+    int count = count_of(places->n, taken), i = 0;
     double whole, value;
     *plan = (rotid_sensor_plan){.method = method};
-    for (int k = 0; k < places->n; k++)
-        count += taken[k];
     plan->nz_m = POOL_LIST(p->pool, plan->z_m, count);
     plan->nloss_percent = POOL_LIST(p->pool, plan->loss_percent, count);
     plan->nhalf_width_percent = POOL_LIST(p->pool, plan->half_width_percent, p->design->nparam);
@@ -285,7 +276,7 @@ static int list_worth(struct planning *p, int *first)
 /* ------------------------------------------------------------------------------------------------ detection limits */
 
 /* By the scan of a diagnosis, of data that have no noise yet. */
-static int list_detectable(struct planning *p, const struct job *job, const double *x, const struct plan_request *request,
+static int list_detectable(struct planning *p, const struct job *job, const double *x, const rotid_suggest_options *o,
                            const int *first)
 {
     struct pool *pool = p->pool;
@@ -294,20 +285,14 @@ static int list_detectable(struct planning *p, const struct job *job, const doub
     struct job test;
     struct state state;
     double *z = POOL_ARRAY(pool, double, p->places->n);
-    int *number = POOL_ARRAY(pool, int, p->modes), n = 0;
-    if (!found || !z || !number)
+    int n = 0;
+    if (!found || !z)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < p->places->n; i++)
         if (first[i])
             z[n++] = p->places->z[i];
-    for (int k = 0; k < p->modes; k++)
-        number[k] = k + 1;
-    const struct planned plan = {p->modes, number, request->frequency_std, request->shape_std};
-    int status = planned_sensors(pool, job, n, z, &test);
-    if (!status)
-        status = planned_measure(pool, &test, x, &plan, &test);
-    if (!status)
-        status = planned_weigh(pool, job, x, &test);
+    const struct planned plan = {p->modes, NULL, o->frequency_noise, o->shape_noise};
+    int status = planned_test(pool, job, x, n, z, &plan, &test);
     struct states states = states_of(&test, &state);
     if (!status)
         status = scan_run(pool, &states, test.measurement.number, test.measurement.holdout, x, SCAN_ALL, &scan);
@@ -325,14 +310,6 @@ static int list_detectable(struct planning *p, const struct job *job, const doub
 }
 
 /* ------------------------------------------------------------------------------------------------ all of it */
-
-static int count_of(int n, const int *taken)
-{
-    int count = 0;
-    for (int i = 0; i < n; i++)
-        count += taken[i];
-    return count;
-}
 
 /* taken := other, improved, where that is better. */
 static int take_better(struct planning *p, double apart, int *other, int *taken)
@@ -367,15 +344,6 @@ static int take_optimal(struct planning *p, int n, double apart, const int *clas
     return status || n > places ? status : take_better(p, apart, other, taken);
 }
 
-static int shapes_of(struct planning *p, double **shape)
-{
-    size_t cells = (size_t)p->places->n * (size_t)p->design->nmode;
-    *shape = POOL_ARRAY(p->pool, double, cells);
-    for (size_t i = 0; *shape && i < cells; i++)
-        (*shape)[i] = p->design->scale[i];
-    return *shape ? ROTID_OK : ROTID_ERROR_MEMORY;
-}
-
 /* The places that effective independence begins with keep the same distance: else neighbours that say the same count twice. */
 static void start_apart(const struct places *places, double apart, int *taken)
 {
@@ -386,36 +354,35 @@ static void start_apart(const struct places *places, double apart, int *taken)
     }
 }
 
-/* Fills of *out what concerns plans: modes to detectable, and what is needed. *first [places->n]: those of the first plan.
- * Statuses of plan_design, ROTID_STOP_CANCELLED. */
+/* Fills of *out what concerns plans: modes and what is needed; detect: detection limits as well, by the first plan. Statuses of
+ * plan_design, ROTID_STOP_CANCELLED. */
 static int plan_run(struct pool *pool, const struct job *job, const double *x, const struct places *places,
-                    const struct plan_request *request, rotid_suggestion *out, int *first)
+                    const rotid_suggest_options *o, int detect, rotid_suggestion *out)
 {
     struct design *design = POOL_NEW(pool, struct design);
-    int most = request->modes > MOST_MODES ? request->modes : MOST_MODES, status = ROTID_ERROR_ARGUMENT, deck = 0;
-    int *optimal = POOL_ARRAY(pool, int, places->n), *classic = POOL_ARRAY(pool, int, places->n);
-    double *shape = NULL, apart = fmin(places->apart, SPREAD / request->sensors * rotor_length(&job->rotor));
-    if (!design || !optimal || !classic || !POOL_LIST(pool, out->plans, 3))
+    struct planned plan = {o->modes > MOST_MODES ? o->modes : MOST_MODES, NULL, o->frequency_noise, o->shape_noise};
+    int status = ROTID_ERROR_ARGUMENT, deck = 0, *first = POOL_ARRAY(pool, int, places->n),
+        *optimal = POOL_ARRAY(pool, int, places->n), *classic = POOL_ARRAY(pool, int, places->n);
+    double apart = fmin(places->apart, SPREAD / o->sensors * rotor_length(&job->rotor));
+    if (!design || !first || !optimal || !classic || !POOL_LIST(pool, out->plans, 3))
         return ROTID_ERROR_MEMORY;
-    for (; status == ROTID_ERROR_ARGUMENT && most >= LEAST_MODES; most--) /* a coarse model has fewer */
-        status = plan_design(pool, job, x, places, most, request->frequency_std, request->shape_std, design);
+    for (; status == ROTID_ERROR_ARGUMENT && plan.modes >= LEAST_MODES; plan.modes--) /* a coarse model has fewer */
+        status = plan_design(pool, job, x, places, &plan, design);
     if (status)
         return status;
     struct planning p = {.pool = pool, .design = design, .places = places, .out = out};
-    p.modes = out->plan_modes = request->modes < design->nmode ? request->modes : design->nmode;
+    p.modes = out->plan_modes = o->modes < design->nmode ? o->modes : design->nmode;
     out->modes_needed = out->sensors_needed = ROTID_NONE;
     status = design_value(pool, 1, design, p.modes, NULL, &p.nothing);
     for (int i = 0; i < places->n; i++)
         deck += first[i] = places->deck[i];
     if (!status && deck)
         status = add_plan(&p, "deck", first);
-    if (!status)
-        status = shapes_of(&p, &shape);
     start_apart(places, apart, classic);
     if (!status)
-        status = effective_independence(pool, places->n, p.modes, shape, request->sensors, classic);
+        status = effective_independence(pool, places->n, p.modes, design->scale, o->sensors, classic);
     if (!status)
-        status = take_optimal(&p, request->sensors, apart, classic, optimal);
+        status = take_optimal(&p, o->sensors, apart, classic, optimal);
     if (!status && !deck)
         memcpy(first, optimal, (size_t)places->n * sizeof *first);
     if (!status)
@@ -426,7 +393,7 @@ static int plan_run(struct pool *pool, const struct job *job, const double *x, c
         status = list_modes(&p, first);
     if (!status)
         status = list_worth(&p, first);
-    return status || !request->detect ? status : list_detectable(&p, job, x, request, first);
+    return status || !detect ? status : list_detectable(&p, job, x, o, first);
 }
 
 #define LIKELY 0.5 /* chance of a name from which on a test is recommended without more ado */
@@ -649,8 +616,8 @@ static int run(struct pool *pool, const struct states *states, rotid_suggest_opt
 {
     rotid_suggestion *r = &out->result;
     struct places places;
-    int *first, measured = states_modes(states, states->nstate) > 0,
-                status = measured ? take_diagnosis(pool, states, o, environment, notes, out) : take_starts(pool, states, out);
+    int measured = states_modes(states, states->nstate) > 0,
+        status = measured ? take_diagnosis(pool, states, o, environment, notes, out) : take_starts(pool, states, out);
     r->state = out->home.name;
     if (!status)
         settle(pool, &out->job, o, &r->noise);
@@ -665,14 +632,7 @@ static int run(struct pool *pool, const struct states *states, rotid_suggest_opt
         status = places_find(pool, &out->job, &places);
     if (status)
         return status;
-    const struct plan_request request = {.frequency_std = o->frequency_noise,
-                                         .shape_std = o->shape_noise,
-                                         .wanted_percent = o->wanted_percent,
-                                         .sensors = o->sensors,
-                                         .modes = o->modes,
-                                         .detect = !measured};
-    first = POOL_ARRAY(pool, int, places.n);
-    status = first ? plan_run(pool, &out->job, out->x, &places, &request, r, first) : ROTID_ERROR_MEMORY;
+    status = plan_run(pool, &out->job, out->x, &places, o, !measured, r);
     if (!status)
         status = list_rivals(pool, out);
     if (!status)

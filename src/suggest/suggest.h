@@ -75,7 +75,7 @@ void rival_gram(const struct rival *rival, const int *own, int n, double *gram);
 /* What is measured in a test. */
 struct planned {
     int modes;
-    const int *number;               /* [modes] elastic modes, from 1 */
+    const int *number;               /* [modes] elastic modes, from 1; NULL: the first ones */
     double frequency_std, shape_std; /* relative, > 0; shape_std 0: no shapes */
 };
 
@@ -90,8 +90,10 @@ int planned_sensors(struct pool *pool, const struct job *from, int n, const doub
  * the model has fewer modes. */
 int planned_measure(struct pool *pool, const struct job *source, const double *x, const struct planned *plan, struct job *to);
 
-/* *to is weighed as well as the job `from` was, and weighs what the model at x does. Statuses of model_weigh. */
-int planned_weigh(struct pool *pool, const struct job *from, const double *x, struct job *to);
+/* *to := the job in a test with sensors at z [n], increasing: the measurements of its own model at x, and weighed as well as the
+ * job was. Statuses of planned_measure and model_weigh. */
+int planned_test(struct pool *pool, const struct job *job, const double *x, int n, const double *z, const struct planned *plan,
+                 struct job *to);
 
 /* ----------------------------------------------------------------------------------------------------------------- tests */
 
@@ -184,6 +186,9 @@ struct design {
 /* Room for a design. ROTID_OK or ROTID_ERROR_MEMORY. */
 int design_new(struct pool *pool, int nmode, int nplace, int nwhole, int nparam, int ntarget, struct design *design);
 
+/* u_k and the shapes at all places, of columns whose sensors they are. */
+void design_take_shapes(const struct columns *columns, struct design *design);
+
 /* What a set of places says by the first `modes` modes. */
 struct information {
     double value;  /* as above, less ln det P: nothing measured is 0 */
@@ -230,13 +235,6 @@ struct places {
     double *z;    /* [n] m, increasing */
     int *deck;    /* [n] nonzero where the deck has one */
     double apart; /* m: sensors that are added keep this distance */
-};
-
-struct plan_request {
-    double frequency_std, shape_std; /* relative, of all modes */
-    double wanted_percent;
-    int sensors, modes; /* of a plan */
-    int detect;         /* fill the detection limits as well */
 };
 
 /* The tests worth a thought for the rivals of a diagnosis, each judged. Fills tests, in the order of their rank, rivals' margins
