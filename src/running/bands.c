@@ -26,17 +26,14 @@ struct source {
 
 struct bands {
     struct pool *pool;
+    struct search *search; /* the nominal machine */
     const struct machine *machine;
-    const struct job *job;
     const rotid_fit_result *fit; /* of the unknowns of the machine */
     const struct speeds_options *options;
     const rotid_environment *environment;
-    const struct system *nominal;
-    struct basis_size basis; /* of the draws */
-    const struct machine_values *values;
     int ncritical, nsource, nmodulus, nname;
     const struct critical *critical;
-    const struct tracks *tracks;
+    const struct tracks *tracks; /* NULL: those of the search say nothing here */
     struct source *source;
     const char **name;
     double *factor;           /* [nmodulus^2] Cholesky factor of the covariance of what is drawn */
@@ -47,7 +44,6 @@ struct bands {
     double *speed;            /* [draws * ncritical] NaN where none was found */
     double *ratio;            /* [draws * ncritical] damping ratio there */
     const rotid_speeds *out;
-    double complex *const *map_vector;
     int responses;   /* draws of which there is a response */
     float *response; /* [responses * nspeed * nprobe] amplitude */
     int nwatched;
@@ -74,7 +70,7 @@ static void add_source(struct bands *b, enum source_kind kind, int index, int is
 static int find_sources(struct bands *b)
 {
     const struct machine *machine = b->machine;
-    const struct job *job = b->job;
+    const struct job *job = b->search->job;
     int n = machine_unknowns(machine, job), most = n + 2 * machine->nbearing + machine->nloss + machine->npull + machine->nchange;
     b->source = POOL_ARRAY(b->pool, struct source, most);
     b->name = POOL_ARRAY(b->pool, const char *, most + 1);
@@ -113,7 +109,7 @@ static int find_sources(struct bands *b)
 
 static double covariance(const struct bands *b, int i, int j)
 {
-    return machine_covariance(b->machine, b->job, b->fit, b->source[i].index, b->source[j].index);
+    return machine_covariance(b->machine, b->search->job, b->fit, b->source[i].index, b->source[j].index);
 }
 
 static int factor_covariance(struct bands *b)
@@ -132,7 +128,7 @@ static int factor_covariance(struct bands *b)
 
 static int values_new(struct pool *pool, const struct bands *b, struct machine_values *values, double **x)
 {
-    int n = machine_unknowns(b->machine, b->job);
+    int n = machine_unknowns(b->machine, b->search->job);
     *x = POOL_ARRAY(pool, double, n + 1);
     if (!*x)
         return ROTID_ERROR_MEMORY;
@@ -143,7 +139,7 @@ static int values_new(struct pool *pool, const struct bands *b, struct machine_v
 static void set_values(const struct bands *b, const double *d, double part, double *x, struct machine_values *values)
 {
     const struct machine *machine = b->machine;
-    memcpy(x, b->values->x, (size_t)machine_unknowns(machine, b->job) * sizeof *x);
+    memcpy(x, b->search->values.x, (size_t)machine_unknowns(machine, b->search->job) * sizeof *x);
     for (int j = 0; j < b->nsource; j++) {
         const struct source *source = &b->source[j];
         double by = exp(part * d[j]);
@@ -176,7 +172,7 @@ static void set_values(const struct bands *b, const double *d, double part, doub
 /* Those of one source, by the machines on both sides of it, `apart` in what is drawn. work [2 size^2 + 2 size] */
 static void differentiate_one(struct bands *b, int j, struct system side[2], double apart, double complex *work)
 {
-    struct system nominal = *b->nominal;
+    struct system nominal = b->search->system;
     const struct tracks *t = b->tracks;
     double h = b->options->harmonic;
     for (int i = 0; i < b->ncritical; i++) {
@@ -218,13 +214,13 @@ static void differentiate_one(struct bands *b, int j, struct system side[2], dou
     for (int row = 0; row < b->out->nmap; row++)
         for (int i = 0; i < b->out->map[row].nspeed_rpm && b->source[j].kind != SOURCE_BEARING_K; i++)
             b->map[j + (ptrdiff_t)b->nsource * (i + (ptrdiff_t)nominal.columns * row)] = map_rate(
-                &nominal, side, apart, b->out->map[row].speed_rpm[i] * RPM, b->map_vector[row] + (ptrdiff_t)nominal.columns * i);
+                &nominal, side, apart, b->out->map[row].speed_rpm[i] * RPM, b->search->map[row] + (ptrdiff_t)nominal.columns * i);
 }
 
 static int differentiate(struct bands *b)
 {
     size_t n = (size_t)b->nsource, tracks = b->tracks ? (size_t)b->tracks->nspeed * (size_t)b->tracks->nmode : 0,
-           map = b->out ? (size_t)b->nominal->columns * (size_t)b->out->nmap : 0, size = (size_t)b->nominal->size;
+           map = b->out ? (size_t)b->search->system.columns * (size_t)b->out->nmap : 0, size = (size_t)b->search->system.size;
     b->derivative = POOL_ARRAY(b->pool, double, n *(size_t)b->ncritical);
     b->campbell = POOL_ARRAY(b->pool, double complex, n *tracks);
     b->map = POOL_ARRAY(b->pool, double, n *map);
@@ -251,7 +247,7 @@ static int differentiate(struct bands *b)
                 break;
             d[j] = i ? step : -step;
             set_values(b, d, 1, x, &values[i]);
-            status = system_build(&scratch, b->machine, b->job, &values[i], b->nominal, NULL, &side[i], &failed);
+            status = system_build(&scratch, b->machine, b->search->job, &values[i], &b->search->system, NULL, &side[i], &failed);
         }
         if (!status)
             differentiate_one(b, j, side, 2 * step, work);
@@ -270,8 +266,8 @@ static int is_outside(const struct bands *b, const double *d)
             return 1;
         if (source->kind != SOURCE_MODULUS)
             continue;
-        const rotid_parameter *bounds = machine_bounds(b->machine, b->job, source->index);
-        double value = b->values->x[source->index];
+        const rotid_parameter *bounds = machine_bounds(b->machine, b->search->job, source->index);
+        double value = b->search->values.x[source->index];
         value = source->is_logarithm ? value * exp(d[j]) : value + d[j];
         if (!(value >= bounds->lower && value <= bounds->upper))
             return 1;
@@ -357,7 +353,7 @@ static void watch(struct pool *pool, const struct bands *b, const double *d, str
         if (rate < 0 && predicted < (1 - MOST) * rate)
             continue;
         system_at(s, b->machine->high);
-        if (system_transfer(b->nominal, &b->watched[i], s, &pair) || pair_refine(s, b->machine->high, NULL, &pair))
+        if (system_transfer(&b->search->system, &b->watched[i], s, &pair) || pair_refine(s, b->machine->high, NULL, &pair))
             continue;
         *growth = fmax(*growth, creal(pair.lambda) / cabs(pair.lambda));
     }
@@ -370,7 +366,7 @@ static int respond(struct pool *pool, struct bands *b, const struct machine_valu
     const rotid_probe_response *curve = b->out->unbalance;
     int nprobe = b->out->nunbalance, failed;
     struct system s;
-    int status = system_build(pool, b->machine, b->job, values, b->nominal, &fewer, &s, &failed);
+    int status = system_build(pool, b->machine, b->search->job, values, &b->search->system, &fewer, &s, &failed);
     if (status)
         return status == ROTID_ERROR_MEMORY ? status : ROTID_OK; /* this draw has none */
     double complex *q = POOL_ARRAY(pool, double complex, s.size);
@@ -400,7 +396,7 @@ static int one_draw(void *context, int index, int worker)
         struct system system[2];
         struct critical *now[2] = {NULL, NULL};
         double *x, *predicted;
-        const struct system *from = b->nominal;
+        const struct system *from = &b->search->system;
         const struct critical *near = b->critical;
         int lost = 0, failed;
         pool_open(&pool, b->pool->allocator);
@@ -414,7 +410,9 @@ static int one_draw(void *context, int index, int worker)
                 break;
             }
             set_values(b, d, (double)step / steps, x, &values);
-            int built = system_build(&pool, b->machine, b->job, &values, b->nominal, &b->basis, &system[own], &failed);
+            const struct basis_size basis = {b->search->basis.modes, b->search->basis.coupled, 0};
+            int built =
+                system_build(&pool, b->machine, b->search->job, &values, &b->search->system, &basis, &system[own], &failed);
             if (built) {
                 status = built == ROTID_ERROR_MEMORY ? built : ROTID_OK;
                 lost = b->ncritical;
@@ -441,7 +439,7 @@ static int one_draw(void *context, int index, int worker)
             set_values(b, d, 1, x, &values);
             status = respond(&pool, b, &values, index);
         }
-        if (!status && from != b->nominal)
+        if (!status && from != &b->search->system)
             watch(&pool, b, d, (struct system *)from, &b->growth[index]);
         done = !lost;
         status = !status && pool.out_of_memory ? ROTID_ERROR_MEMORY : status;
@@ -554,7 +552,7 @@ static void spread(const struct bands *b, rotid_speeds *out, double *g)
         }
     for (int row = 0; row < out->nmap; row++)
         for (int i = 0; i < out->map[row].nspeed_rpm; i++) {
-            double half = half_width(b, b->map + (ptrdiff_t)b->nsource * (i + (ptrdiff_t)b->nominal->columns * row));
+            double half = half_width(b, b->map + (ptrdiff_t)b->nsource * (i + (ptrdiff_t)b->search->system.columns * row));
             out->map[row].from_rpm[i] = out->map[row].speed_rpm[i] * exp(-half);
             out->map[row].to_rpm[i] = out->map[row].speed_rpm[i] * exp(half);
         }
@@ -621,21 +619,6 @@ static int find_watched(struct bands *b, struct system *nominal)
     return status;
 }
 
-static struct bands begin(struct pool *pool, struct search *search, int ncritical, const struct critical *critical,
-                          const rotid_fit_result *fit, const struct speeds_options *options)
-{
-    return (struct bands){.pool = pool,
-                          .machine = search->machine,
-                          .job = search->job,
-                          .fit = fit,
-                          .options = options,
-                          .nominal = &search->system,
-                          .basis = {search->basis.modes, search->basis.coupled, 0},
-                          .values = &search->values,
-                          .ncritical = ncritical,
-                          .critical = critical};
-}
-
 int bands_gradient(struct pool *pool, struct search *search, int ncritical, const struct critical *critical, double *gradient,
                    double *rest)
 {
@@ -643,7 +626,13 @@ int bands_gradient(struct pool *pool, struct search *search, int ncritical, cons
     int n = machine_unknowns(search->machine, search->job);
     double *one = POOL_ARRAY(pool, double, n);
     const rotid_fit_result all = {.n = n, .std = one}; /* every unknown is uncertain */
-    struct bands b = begin(pool, search, ncritical, critical, &all, &options);
+    struct bands b = {.pool = pool,
+                      .search = search,
+                      .machine = search->machine,
+                      .fit = &all,
+                      .options = &options,
+                      .ncritical = ncritical,
+                      .critical = critical};
     for (int p = 0; p < n && one; p++)
         one[p] = 1;
     int status = one ? find_sources(&b) : ROTID_ERROR_MEMORY;
@@ -669,11 +658,16 @@ int bands_make(struct pool *pool, struct search *search, const rotid_fit_result 
                const rotid_environment *environment, struct message_list *notes, rotid_speeds *out)
 {
     int ncritical = search->ncritical;
-    struct bands b = begin(pool, search, ncritical, search->critical, fit, options);
-    b.environment = environment;
-    b.tracks = &search->tracks;
-    b.out = out;
-    b.map_vector = search->map;
+    struct bands b = {.pool = pool,
+                      .search = search,
+                      .machine = search->machine,
+                      .fit = fit,
+                      .options = options,
+                      .environment = environment,
+                      .ncritical = ncritical,
+                      .critical = search->critical,
+                      .tracks = &search->tracks,
+                      .out = out};
     int status = find_sources(&b), lost = 0;
     if (status || !b.nsource || !options->draws || !ncritical)
         return status;

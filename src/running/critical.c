@@ -49,12 +49,8 @@ static int add_mode(struct pool *pool, const struct system *s, struct tracks *t,
 
 static int are_same(const struct system *s, const struct pair *a, const struct pair *b)
 {
-    double complex alike = 0;
-    if (!is_there(a) || !is_there(b) || !(cabs(a->lambda - b->lambda) < 1e-8 * cabs(a->lambda)))
-        return 0;
-    for (int j = 0; j < s->size; j++)
-        alike += conj(a->u[j]) * b->u[j];
-    return cabs(alike) > 0.9;
+    return is_there(a) && is_there(b) && cabs(a->lambda - b->lambda) < 1e-8 * cabs(a->lambda) &&
+           pair_likeness(s->size, a, b) > 0.9 * 0.9;
 }
 
 /* The mode that another one has run into, -1: none. */
@@ -214,13 +210,9 @@ ORDER_BY(by_speed, struct critical, it->speed, 0)
 /* Newton from a speed within the bracket of a crossing: 0 where it ends in the bracket, at the mode that it began with. */
 static int newton(struct system *s, double h, double below, double above, const struct pair *from, double *speed, struct pair *to)
 {
-    double complex alike = 0;
     pair_copy(s->size, from, to);
-    if (pair_synchronise(s, h, speed, to) || !(*speed >= below * (1 - 1e-9) && *speed <= above * (1 + 1e-9)))
-        return 1;
-    for (int j = 0; j < s->size; j++)
-        alike += conj(from->u[j]) * to->u[j];
-    return !(creal(alike * conj(alike)) > ONE_MODE);
+    return pair_synchronise(s, h, speed, to) || !(*speed >= below * (1 - 1e-9) && *speed <= above * (1 + 1e-9)) ||
+           !(pair_likeness(s->size, from, to) > ONE_MODE);
 }
 
 /* The crossing on the way between two speeds, up or down, of the mode at the first: by halves where Newton leaves the bracket or
@@ -350,15 +342,11 @@ double critical_rate(struct system *nominal, struct system side[2], double apart
 int critical_carry(const struct system *from, const struct critical *near, double h, struct system *s, struct critical *to)
 {
     struct pair start = s->spare[0];
-    double complex alike = 0;
     int lost = system_transfer(from, &near->pair, s, &start);
     pair_copy(s->size, &start, &to->pair);
     to->mode = near->mode;
     to->pair.lambda = creal(near->pair.lambda) + I * h * to->speed;
-    lost = lost || pair_synchronise(s, h, &to->speed, &to->pair);
-    for (int j = 0; j < s->size && !lost; j++)
-        alike += conj(start.u[j]) * to->pair.u[j];
-    lost = lost || creal(alike * conj(alike)) < SAME;
+    lost = lost || pair_synchronise(s, h, &to->speed, &to->pair) || pair_likeness(s->size, &start, &to->pair) < SAME;
     if (lost)
         to->speed = NAN;
     return lost;

@@ -37,6 +37,12 @@ static double complex inner(int n, const double complex *a, const double complex
     return sum;
 }
 
+double pair_likeness(int size, const struct pair *a, const struct pair *b)
+{
+    double complex alike = inner(size, a->u, b->u);
+    return creal(alike * conj(alike));
+}
+
 static void normalise(int n, double complex *u)
 {
     double length = sqrt(creal(inner(n, u, u)));
@@ -320,13 +326,13 @@ int pair_follow(struct system *s, double from, double to, int least, struct pair
         next.lambda += known ? rate * (then - at) : 0;
         system_at(s, then);
         int failed = pair_refine(s, then, NULL, &next);
-        double same = failed ? 0 : cabs(inner(s->size, pair->u, next.u));
+        double same = failed ? 0 : pair_likeness(s->size, pair, &next);
         if (known && !failed) {
             system_at(s, at);
             double likewise = biorthogonal(s, pair, &next);
             failed = !(likewise > TURNED && likewise < 1 / TURNED);
         }
-        if (!failed && same * same > ALIKE) {
+        if (!failed && same > ALIKE) {
             pair_copy(s->size, &next, pair);
             at = then;
             step *= fabs(step) < most ? 2 : 1;

@@ -247,6 +247,9 @@ int system_transfer(const struct system *from, const struct pair *pair, const st
 int pair_new(struct pool *pool, int size, struct pair *pair);
 void pair_copy(int size, const struct pair *from, struct pair *to);
 
+/* |u'v|^2 of the vectors of two pairs: 1 of one motion. */
+double pair_likeness(int size, const struct pair *a, const struct pair *b);
+
 /* All pairs with Im lambda > 0 and not overdamped at a speed, by rising Im lambda: *count of them into pair [size], which are
  * there; without loss factors. real: NULL, or the largest eigenvalue above zero without whirl, 0: none. ROTID_OK,
  * ROTID_ERROR_MEMORY or ROTID_ERROR_EIGEN. */
