@@ -15,8 +15,8 @@
  *   suggestion.c      rotid_suggest: tests to do next
  *   result_geometry.c the model as it is drawn and meshed
  *
- * Hosts and src/cli call rotid.h; src/cli takes deck_job_of and deck_states_of besides. Models and fits of a host (rotid_model,
- * rotid_fit) belong to src/modal and src/fit. The room prints nothing and keeps nothing between calls. */
+ * Hosts and src/cli call rotid.h; src/cli takes deck_job_of, deck_states_of and machine_refuse besides. Models and fits of a
+ * host (rotid_model, rotid_fit) belong to src/modal and src/fit. The room prints nothing and keeps nothing between calls. */
 
 #include <stdatomic.h>
 
@@ -76,7 +76,7 @@ void *call_keep(const struct call *call, const struct record *record, const void
 int machine_fit_all(struct call *call, const struct states *states, rotid_fit_result **fit);
 
 /* ROTID_ERROR_ARGUMENT, with the reason among the notes, where there is no machine. */
-int machine_refuse(struct call *call, const struct states *states);
+int machine_refuse(const struct states *states, struct message_list *notes);
 
 /* --------------------------------------------------------------------------------------------------------------- results */
 

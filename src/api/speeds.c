@@ -41,11 +41,11 @@ static int take_options(const rotid_speeds_options *given, char *failure, struct
     return ROTID_OK;
 }
 
-int machine_refuse(struct call *call, const struct states *states)
+int machine_refuse(const struct states *states, struct message_list *notes)
 {
     if (states->machine)
         return ROTID_OK;
-    return message_refuse(&call->notes, ROTID_ERROR_ARGUMENT, states->state[0].job.deck, 1, 1,
+    return message_refuse(notes, ROTID_ERROR_ARGUMENT, states->state[0].job.deck, 1, 1,
                           "the deck has no *RUNNING, expected the machine in operation behind it, with its *BEARING cards");
 }
 
@@ -93,7 +93,7 @@ static int speeds(struct call *call, const rotid_deck *deck, const rotid_speeds_
     rotid_fit_result *fit = NULL;
     int no_fit, status = states ? take_options(given, call->entry.failure, &options, &no_fit) : ROTID_ERROR_ARGUMENT;
     if (!status)
-        status = machine_refuse(call, states);
+        status = machine_refuse(states, &call->notes);
     if (!status && !no_fit)
         status = machine_fit_all(call, states, &fit);
     if (!status)

@@ -79,7 +79,7 @@ static int suggest_for_speed(struct call *call, const struct states *states, con
     struct pool *pool = &call->entry.scratch;
     const struct job *job = &states->state[0].job;
     rotid_fit_result own;
-    int status = machine_refuse(call, states), assumed;
+    int status = machine_refuse(states, &call->notes), assumed;
     struct rotor_model *model = POOL_NEW(pool, struct rotor_model);
     if (!status)
         status = machine_fit_all(call, states, fit);

@@ -125,6 +125,9 @@ int command_fail_with(struct command *command, int status, const char *failure);
 int command_wants_table(const struct command *command);
 /* Where they go. */
 struct screen command_screen(struct command *command);
+/* Where tables are wanted: those of a result, and behind them the warnings that have no place in a file. */
+void command_show(struct command *command, const struct result *result,
+                  void (*show)(const struct screen *, const struct result *));
 
 /* Writes the result, with the warnings among the messages, where --json says; `code` unless that fails. */
 int command_write_result(struct command *command, struct result *result, int code);

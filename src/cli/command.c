@@ -79,6 +79,16 @@ struct screen command_screen(struct command *command)
     return (struct screen){terminal_out(), &command->pool, command->verbose, SCREEN_WIDTH};
 }
 
+void command_show(struct command *command, const struct result *result,
+                  void (*show)(const struct screen *, const struct result *))
+{
+    const struct screen to = command_screen(command);
+    if (!command_wants_table(command))
+        return;
+    show(&to, result);
+    screen_notes(&to, &command->messages);
+}
+
 /* Writes text (may be NULL: out of memory) to a file; `code` unless that fails. */
 static int command_write_file(struct command *command, const char *path, const char *text, int code)
 {

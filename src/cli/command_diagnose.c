@@ -21,11 +21,7 @@ static int show(struct command *command, rotid_diagnosis *diagnosis)
     struct result result = {.head = command->head, .diagnose = diagnosis};
     int code = EXIT_DONE, written;
     command_take_messages(command, NULL, diagnosis->nmessage, diagnosis->message);
-    if (command_wants_table(command)) {
-        const struct screen to = command_screen(command);
-        screen_diagnose(&to, &result);
-        screen_notes(&to, &command->messages);
-    }
+    command_show(command, &result, screen_diagnose);
     if (diagnosis->interrupted || command_cancelled(NULL))
         code = terminal_end(EXIT_DOUBTFUL, "rotid: interrupted; the result holds what was finished\n");
     written = command_write_result(command, &result, code);

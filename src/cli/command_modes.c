@@ -44,11 +44,8 @@ int command_modes(struct command *command)
         code = command_begin_states(command, &result);
     if (!code)
         code = compute(command, &result);
-    if (!code && command_wants_table(command)) {
-        const struct screen to = command_screen(command);
-        screen_modes(&to, &result);
-        screen_notes(&to, &command->messages);
-    }
+    if (!code)
+        command_show(command, &result, screen_modes);
     if (!code && command->csv) {
         struct table *table[] = {table_of_model_modes(&command->pool, result.modes),
                                  table_of_shapes(&command->pool, &command->job->rotor, result.modes)};

@@ -75,11 +75,7 @@ static int run(struct command *command, const struct states *states, const rotid
         code = EXIT_DOUBTFUL;
     }
     struct result result = {.head = command->head, .speeds = speeds};
-    if (command_wants_table(command)) {
-        const struct screen to = command_screen(command);
-        screen_speeds(&to, &result);
-        screen_notes(&to, &command->messages);
-    }
+    command_show(command, &result, screen_speeds);
     code = write_csv(command, command->speeds.campbell,
                      command->speeds.campbell ? table_of_campbell(&command->pool, speeds) : NULL, code);
     code = write_csv(command, command->speeds.response,
@@ -89,25 +85,21 @@ static int run(struct command *command, const struct states *states, const rotid
 
 int command_speeds(struct command *command)
 {
-    const struct machine *machine = deck_states_of(command->read)->machine;
+    const struct states *states = deck_states_of(command->read);
     struct command_fit fit = {0};
     struct speeds_options options = {.count = SPEEDS_COUNT,
                                      .harmonic = command->speeds.harmonic,
                                      .draws = command->speeds.draws,
                                      .seed = command->seed,
                                      .threads = command->threads};
-    if (!machine)
-        return command_fail(
-            command,
-            message_refuse(&command->messages, ROTID_ERROR_ARGUMENT, command->job->deck, 1, 1,
-                           "the deck has no *RUNNING, expected the machine in operation behind it, with its *BEARING cards"));
-    int code = parse_speeds(command, &options);
+    int code = machine_refuse(states, &command->messages) ? command_fail(command, ROTID_ERROR_ARGUMENT)
+                                                          : parse_speeds(command, &options);
     if (!code)
-        code = command_fit_deck(command, command->read->nparameter || machine->nunknown, NULL, &fit);
+        code = command_fit_deck(command, states->nparameter || states->machine->nunknown, NULL, &fit);
     if (!code && command_cancelled(NULL)) {
         code = terminal_end(EXIT_DOUBTFUL, "rotid: interrupted, nothing was computed\n");
     } else if (!code) {
-        code = run(command, deck_states_of(command->read), fit.fit, &options, command_judge_fit(command, &fit, "used"));
+        code = run(command, states, fit.fit, &options, command_judge_fit(command, &fit, "used"));
     }
     rotid_fit_free(fit.fit);
     return code;

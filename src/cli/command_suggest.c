@@ -73,11 +73,7 @@ int command_suggest(struct command *command)
         return command_fail_with(command, status, failure);
     struct result result = {.head = command->head, .suggest = suggestion};
     command_take_messages(command, NULL, suggestion->nmessage, suggestion->message);
-    if (command_wants_table(command)) {
-        const struct screen to = command_screen(command);
-        screen_suggest(&to, &result);
-        screen_notes(&to, &command->messages);
-    }
+    command_show(command, &result, screen_suggest);
     int written = command_write_result(command, &result, EXIT_DONE), code = write_extended(command, suggestion, written);
     rotid_suggestion_free(suggestion);
     return code > written ? code : written;
