@@ -530,11 +530,10 @@ static void put_target(struct deck_writer *w, const struct cause_kind *kind, int
     }
 }
 
-static void put_value(struct deck_writer *w, const struct effect_parameter_name *parameter, int count, const double *value)
+static void put_value(struct deck_writer *w, const struct effect_parameter_name *parameter, double value)
 {
     deck_put(w, "%s", parameter->name);
-    for (int i = 0; i < count; i++)
-        deck_put_number(w, ", ", value[i], parameter->unit);
+    deck_put_number(w, ", ", value, parameter->unit);
     deck_put(w, "\n");
 }
 
@@ -545,7 +544,7 @@ static void put_head(struct deck_writer *w, const char *name, const struct cause
     deck_put_option(w, "TYPE", kind ? kind->id : NULL); /* none: refused */
 }
 
-void deck_put_cause(struct deck_writer *w, const struct effect *effect, const int *fixed)
+void deck_put_cause(struct deck_writer *w, const struct effect *effect)
 {
     const struct cause_kind *kind = catalogue_of(effect);
     put_head(w, effect->name, kind);
@@ -553,14 +552,9 @@ void deck_put_cause(struct deck_writer *w, const struct effect *effect, const in
         put_target(w, kind, effect->target);
     if (kind && kind->variant_option)
         deck_put_option(w, kind->variant_option, kind->variant[effect->variant]);
-    if (fixed)
-        deck_put_option(w, "SUSPECT", "YES");
     deck_put(w, "\n");
     for (int p = 0; p < effect_parameters(effect) && kind; p++)
-        if (!fixed || fixed[p])
-            put_value(w, &effect->kind->parameter[p], 1, &effect->value[p]);
-        else if (p == kind->size && effect->bound[0] < effect->bound[1])
-            put_value(w, &effect->kind->parameter[p], 2, effect->bound);
+        put_value(w, &effect->kind->parameter[p], effect->value[p]);
 }
 
 void deck_put_corrections(struct deck_writer *w, int first)
@@ -578,6 +572,6 @@ void deck_put_corrections(struct deck_writer *w, int first)
             deck_put(w, ",%d", c.sensor[1]);
         deck_put(w, "\n");
         for (int p = 0; kind && (parameter = correction_parameter(kind, p)); p++)
-            put_value(w, parameter, 1, correction_value(&c, p));
+            put_value(w, parameter, *correction_value(&c, p));
     }
 }

@@ -150,12 +150,12 @@ static void check_bearing(struct deck_reader *reader, struct place place, const 
         deck_note(reader, place, "the direct damping of this bearing is below zero, which drives whirl");
 }
 
-static int bearing_values(struct deck_reader *reader, const struct data_line *line, int first, struct coefficients *b)
+static int bearing_values(struct deck_reader *reader, const struct data_line *line, struct coefficients *b)
 {
     static const char *const what[COEFFICIENTS] = {"kxx [N/m]",   "kxy [N/m]",   "kyx [N/m]",   "kyy [N/m]",
                                                    "cxx [N.s/m]", "cxy [N.s/m]", "cyx [N.s/m]", "cyy [N.s/m]"};
     static const int of_two[2] = {0, 4}, of_four[4] = {0, 3, 4, 7}, of_all[COEFFICIENTS] = {0, 1, 2, 3, 4, 5, 6, 7};
-    int count = line->count - first, bad = 0;
+    int count = line->count - 1, bad = 0; /* behind the position */
     const int *place = count == 2 ? of_two : count == 4 ? of_four : of_all;
     double value[COEFFICIENTS] = {0};
     if (count != 2 && count != 4 && count != COEFFICIENTS)
@@ -165,13 +165,13 @@ static int bearing_values(struct deck_reader *reader, const struct data_line *li
             "cxy, cyx, cyy)",
             count > 0 ? count : 0);
     for (int i = 0; i < count; i++)
-        bad |= deck_number(reader, line, first + i, what[place[i]], ANY, &value[place[i]]);
+        bad |= deck_number(reader, line, 1 + i, what[place[i]], ANY, &value[place[i]]);
     if (count == 2) {
         value[3] = value[0];
         value[7] = value[4];
     }
     if (!bad && (value[0] < 0 || value[3] < 0))
-        bad = deck_error(reader, line->field[first].place,
+        bad = deck_error(reader, line->field[1].place,
                          "the direct stiffness of a bearing is below zero, expected *PULL for a magnetic "
                          "pull");
     memcpy(b->k, value, 4 * sizeof *value);
@@ -307,7 +307,7 @@ void deck_bearing(struct deck_reader *reader, const struct card *card)
         reader->layout = "position alone beside FILE";
         bad |= deck_count(reader, line, 1) || read_coefficients(reader, card, file, &of_bearing, &b.film);
     } else {
-        bad |= room_of_table(reader, &b.film, 1) || bearing_values(reader, line, 1, &b.film);
+        bad |= room_of_table(reader, &b.film, 1) || bearing_values(reader, line, &b.film);
     }
     const struct card_option *axes = card_option(card, "AXES");
     int along = axes ? deck_option_word(reader, axes, deck_axes) : 0;

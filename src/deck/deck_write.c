@@ -542,7 +542,7 @@ static void put_new(struct writing *w, int s, int common, struct deck_writer *ou
         const struct effect *effect = &meant->job.rotor.effect[i];
         int in_all = alone || (w->meant.nstate > 1 && is_in_all(w, effect));
         if (is_new(&given->job.rotor, effect) && in_all == common)
-            deck_put_cause(out, effect, NULL);
+            deck_put_cause(out, effect);
     }
     for (int p = 0; p < meant->job.unknowns.nparameter; p++) {
         const char *name = own_name(meant, p);
