@@ -164,7 +164,7 @@ int channels_compare(struct pool *pool, const struct frf_set *set, int first, in
         const double complex *h = set->frf[c].h + first;
         double hh = 0, mm = 0, apart = 0;
         double complex hm = 0;
-        ema_synthesise(out, set, c, 1, n, set->frequency_hz + first, model);
+        ema_synthesise(out, set, c, n, set->frequency_hz + first, model);
         for (int i = 0; i < n; i++) {
             if (set->frequency_hz[first + i] <= 0)
                 continue;

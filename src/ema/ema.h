@@ -189,9 +189,9 @@ int ema_average(struct pool *pool, int count, const struct ema test[], struct em
 int ema_compute(struct pool *pool, const struct frf_set *set, const struct ema_options *options,
                 const rotid_environment *environment, struct ema *out);
 
-/* The transfer function of channel c on n lines, from the modes and (with_residuals) L_c and U_c. */
-void ema_synthesise(const struct ema *ema, const struct frf_set *set, int c, int with_residuals, int n,
-                    const double *frequency_hz, double complex *h);
+/* The transfer function of channel c on n lines, from the modes, L_c and U_c. */
+void ema_synthesise(const struct ema *ema, const struct frf_set *set, int c, int n, const double *frequency_hz,
+                    double complex *h);
 
 /* ------------------------------------------------------------------------------------------------------ channels, guards */
 

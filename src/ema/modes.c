@@ -32,8 +32,7 @@ void residue_of_mode(const struct modal_fit *fit, int c, int r, const double *co
     *residue_std = fit->singular[c] ? NAN : sqrt(fmax(variance, 0)) / fit->scale;
 }
 
-void ema_synthesise(const struct ema *ema, const struct frf_set *set, int c, int with_residuals, int n,
-                    const double *frequency_hz, double complex *h)
+void ema_synthesise(const struct ema *ema, const struct frf_set *set, int c, int n, const double *frequency_hz, double complex *h)
 {
     for (int i = 0; i < n; i++)
         h[i] = 0;
@@ -52,7 +51,7 @@ void ema_synthesise(const struct ema *ema, const struct frf_set *set, int c, int
     }
     for (int i = 0; i < n; i++) {
         double omega = TWO_PI * frequency_hz[i];
-        if (with_residuals && omega > 0)
+        if (omega > 0)
             h[i] += -ema->lower[c] / (omega * omega) + ema->upper[c];
         for (int p = 0; p < (int)set->quantity; p++)
             h[i] *= I * omega + set->window_decay;

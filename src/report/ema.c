@@ -78,7 +78,7 @@ static int add_curve(struct pool *pool, const struct ema_report *r, int c, doubl
 {
     const struct frf_set *set = &r->measurement->set;
     int n = set->nline;
-    ema_synthesise(r->ema, set, c, 1, n, set->frequency_hz, h);
+    ema_synthesise(r->ema, set, c, n, set->frequency_hz, h);
     *curve = (struct ema_curve){.channel = c + 1, .nfrequency_hz = n, .frequency_hz = set->frequency_hz};
     return !complex_parts(pool, n, set->frf[c].h, &curve->measured_re, &curve->measured_im) &&
            !complex_parts(pool, n, h, &curve->synthesised_re, &curve->synthesised_im);
@@ -94,7 +94,7 @@ static int add_rms(struct pool *pool, const struct ema_report *r, int count, con
     if (!measured || !synthesised)
         return 0;
     for (int i = 0; i < count; i++) {
-        ema_synthesise(r->ema, set, order[i], 1, n, set->frequency_hz, h);
+        ema_synthesise(r->ema, set, order[i], n, set->frequency_hz, h);
         for (int l = 0; l < n; l++) {
             measured[l] += creal(set->frf[order[i]].h[l] * conj(set->frf[order[i]].h[l])) / count;
             synthesised[l] += creal(h[l] * conj(h[l])) / count;
