@@ -353,7 +353,7 @@ static void watch(struct pool *pool, const struct bands *b, const double *d, str
         if (rate < 0 && predicted < (1 - MOST) * rate)
             continue;
         system_at(s, b->machine->high);
-        if (system_transfer(&b->search->system, &b->watched[i], s, &pair) || pair_refine(s, b->machine->high, NULL, &pair))
+        if (system_transfer(&b->search->system, &b->watched[i], s, &pair) || pair_refine(s, b->machine->high, &pair))
             continue;
         *growth = fmax(*growth, creal(pair.lambda) / cabs(pair.lambda));
     }
@@ -613,7 +613,7 @@ static int find_watched(struct bands *b, struct system *nominal)
         struct pair *own = &b->watched[i];
         if (cimag(own->lambda) > 2 * b->machine->high && creal(own->lambda) < -WEAK * cabs(own->lambda))
             continue;
-        if (!pair_refine(nominal, b->machine->high, NULL, own))
+        if (!pair_refine(nominal, b->machine->high, own))
             pair_copy(nominal->size, own, &b->watched[b->nwatched++]);
     }
     return status;

@@ -95,7 +95,7 @@ static void step_all(struct system *s, struct tracks *t, int first, int from, in
 static int settle(struct system *s, double speed, struct pair *pair)
 {
     system_at(s, speed);
-    return pair_refine(s, speed, NULL, pair);
+    return pair_refine(s, speed, pair);
 }
 
 /* Whether a mode may grow: none does where stiffness and damping are positive (semi)definite and the stiffness is symmetric,

@@ -248,12 +248,12 @@ static int side_of(double complex lambda, double at)
 }
 
 /* Where the pair of one side lies on the other side and that of the other one on this, Im lambda stays at w = W: side 0. */
-int pair_refine(struct system *s, double at, const int *side, struct pair *pair)
+int pair_refine(struct system *s, double at, struct pair *pair)
 {
-    int own = side ? *side : side_of(pair->lambda, at);
+    int own = side_of(pair->lambda, at);
     if (refine(s, own, pair))
         return 1;
-    if (side || !s->hysteretic || side_of(pair->lambda, at) == own)
+    if (!s->hysteretic || side_of(pair->lambda, at) == own)
         return 0;
     if (refine(s, -own, pair))
         return 1;
@@ -325,7 +325,7 @@ int pair_follow(struct system *s, double from, double to, int least, struct pair
         pair_copy(s->size, pair, &next);
         next.lambda += known ? rate * (then - at) : 0;
         system_at(s, then);
-        int failed = pair_refine(s, then, NULL, &next);
+        int failed = pair_refine(s, then, &next);
         double same = failed ? 0 : pair_likeness(s->size, pair, &next);
         if (known && !failed) {
             system_at(s, at);

@@ -255,9 +255,9 @@ double pair_likeness(int size, const struct pair *a, const struct pair *b);
  * ROTID_ERROR_MEMORY or ROTID_ERROR_EIGEN. */
 int pairs_all(struct pool *pool, struct system *system, double speed, int *count, struct pair *pair, double *real);
 
-/* The pair near `pair` at the speed of system_at, by inverse iteration with the nonlinear D: quadratic. side: NULL, chosen by Im
- * lambda against `at`, or a pointer to the side to take. Returns 0, or 1 without convergence. */
-int pair_refine(struct system *system, double at, const int *side, struct pair *pair);
+/* The pair near `pair` at the speed of system_at, by inverse iteration with the nonlinear D: quadratic; on the side that Im
+ * lambda says against `at`. Returns 0, or 1 without convergence. */
+int pair_refine(struct system *system, double at, struct pair *pair);
 
 /* The left vector of a pair that has converged, at the speed of system_at. Returns 0, or 1 where D is singular to the last bit.
  */
