@@ -548,8 +548,6 @@ static int diagnose(struct pool *pool, const struct states *states, const struct
                             .before = options->before,
                             .after = options->after,
                             .out = out,
-                            .mode_out_rms = NAN,
-                            .mode_out_shape = NAN,
                             .clock = clock_seconds()};
     engine.user_reduction = states->state->job.options.fit.reduction;
     *out = (struct diagnosis){.result = nothing, .last = POOL_NEW(pool, struct round_result)};

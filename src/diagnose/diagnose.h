@@ -358,25 +358,24 @@ struct engine {
     struct message_list *notes;
     const char *before, *after; /* the question is what changed between these states, or NULL */
     struct diagnosis *out;
-    struct states states;                /* judged, with the causes named so far; their starts are the fitted values */
-    struct job *job;                     /* of the state whose data are looked at, else of the first */
-    const char *state;                   /* its name, NULL in a deck without *STATE */
-    int nown;                            /* unknowns of the deck: the first ones of all */
-    double *deck_start;                  /* [nown] */
-    int *number, *holdout;               /* of the modes of all states */
-    int nprepared;                       /* findings of the data before a model was looked at */
-    int dropped;                         /* modes that nobody's shape fits and that were left out */
-    int exchanged;                       /* the shapes of which measured mode, from 1, and the next one change places; 0: none */
-    struct job_measurement measured;     /* with them, where there are any */
-    rotid_fit_result *fit;               /* of these states */
-    double mode_out_rms, mode_out_shape; /* of them, NaN where unknown: modes left out in turn, percent and shape */
-    int user_reduction;                  /* of the deck's own FIT */
-    int coloured;                        /* the noise of the shapes was raised for its smooth part */
-    struct roving_accelerometer moving;  /* the accelerometer by the frequencies at single sensors; usable 0 where it has none */
-    int nfault;                          /* faults of the measurement that were taken out of the data, */
-    struct marginal *fault;              /* as they were named */
-    int searched_far;                    /* far starts were looked for, once */
-    const struct far_start *far;         /* the one that led farther than the others, NULL */
+    struct states states;               /* judged, with the causes named so far; their starts are the fitted values */
+    struct job *job;                    /* of the state whose data are looked at, else of the first */
+    const char *state;                  /* its name, NULL in a deck without *STATE */
+    int nown;                           /* unknowns of the deck: the first ones of all */
+    double *deck_start;                 /* [nown] */
+    int *number, *holdout;              /* of the modes of all states */
+    int nprepared;                      /* findings of the data before a model was looked at */
+    int dropped;                        /* modes that nobody's shape fits and that were left out */
+    int exchanged;                      /* the shapes of which measured mode, from 1, and the next one change places; 0: none */
+    struct job_measurement measured;    /* with them, where there are any */
+    rotid_fit_result *fit;              /* of these states */
+    int user_reduction;                 /* of the deck's own FIT */
+    int coloured;                       /* the noise of the shapes was raised for its smooth part */
+    struct roving_accelerometer moving; /* the accelerometer by the frequencies at single sensors; usable 0 where it has none */
+    int nfault;                         /* faults of the measurement that were taken out of the data, */
+    struct marginal *fault;             /* as they were named */
+    int searched_far;                   /* far starts were looked for, once */
+    const struct far_start *far;        /* the one that led farther than the others, NULL */
     double clock;
 };
 
