@@ -240,14 +240,17 @@ POOL_TEST(a_cause_is_left_at_the_test)
  * its own. */
 POOL_TEST(what_is_left_at_the_test_is_left_with_all_of_it)
 {
-    static const char *const had[4] =
+    static const char *const had[6] =
         {"*SPRING, NAME=held\nend, 1e6, 1e5, 1e7, 1e9\n*DISK, NAME=hub\n1, 20, 0.1, 0.2, 0.3, 0.3\n*CAUSE, NAME=fit, "
          "TYPE=hub_stiffness\nshare, 1\n",
-         "*DISK, NAME=hub\n0.6, 20\n*CAUSE, NAME=more, TYPE=added_inertia, AT=hub\ninertia, 2\n", "*CLAMP, NAME=held, AT=end\n",
+         "*DISK, NAME=hub\n0.6, 20\n*CAUSE, NAME=more, TYPE=added_inertia, AT=hub\ninertia, 2\n",
+         "*CLAMP, NAME=held, AT=end\n",
+         "*CAUSE, NAME=cord, TYPE=support_rotation\nstiffness, 9e6\nz, 1\n",
+         "*SENSORS\n1, 1\n*CAUSE, NAME=cell, TYPE=accelerometer_mass, SENSOR=1, MOUNT=FIXED\nmass, 0.2\n",
          ""},
-                             *const gone[4] = {"f, held, hub", "f, hub", "f, held", "f"};
-    double speed[4], torsion[4], count[4];
-    for (int i = 0; i < 4; i++) {
+                             *const gone[6] = {"f, held, hub", "f, hub", "f, held", "ALL", "ALL", "f"};
+    double speed[6], torsion[6], count[6];
+    for (int i = 0; i < 6; i++) {
         struct running_case c;
         char *text =
             pool_format(&test_pool, SHAFT "%s*RUNNING\n%s\n*BEARING\n0.2, 1e8, 10\n*BEARING\n1.8, 1e8, 10\n", had[i], gone[i]);
@@ -258,11 +261,14 @@ POOL_TEST(what_is_left_at_the_test_is_left_with_all_of_it)
         torsion[i] = c.speeds.torsion[0].frequency_hz;
         running_case_close(&c);
     }
-    for (int i = 0; i < 3; i++) {
-        assert_close(count[i], count[3], 0, 0);
-        assert_close(speed[i], speed[3], 1e-4, 0); /* a hub has nodes of its own */
-        assert_close(torsion[i], torsion[3], 1e-2, 0);
+    for (int i = 0; i < 5; i++) {
+        assert_close(count[i], count[5], 0, 0);
+        assert_close(speed[i], speed[5], 1e-4, 0); /* a hub has nodes of its own */
+        assert_close(torsion[i], torsion[5], 1e-2, 0);
     }
+    for (int i = 3; i < 5; i++)
+        says(pool_format(&test_pool, SHAFT "%s" TWO, had[i]), ROTID_WARNING, 0,
+             i == 3 ? "the machine has cord" : "the machine has cell");
 }
 
 #define MODES "*NOISE, FREQUENCY=1e-3\n*MODES\n1, 100\n*IDENTIFY\na.E, 1e10, 1e12, 2e11\n" /* five lines */

@@ -96,8 +96,8 @@ static void leave_at_test(struct deck_reader *reader, struct place place, const 
             if ((all && !kind) || (!all && *own && same_text(*own, name)))
                 found = without[i] = 1;
     }
-    for (int i = 0; i < rotor->neffect && !all; i++)
-        if (rotor->effect[i].name && same_text(rotor->effect[i].name, name))
+    for (int i = 0; i < rotor->neffect; i++)
+        if (all ? effect_is_of_test(&rotor->effect[i], rotor) : rotor->effect[i].name && same_text(rotor->effect[i].name, name))
             found = machine->without_effect[i] = 1;
     if (!found)
         deck_error(reader, place,
@@ -575,6 +575,16 @@ static void check_disks(struct deck_reader *reader, struct place place)
                   count > 1 ? "s have" : " has");
 }
 
+/* Supports and accelerometers of the test that the machine keeps; of a support that a *SPRING states the card says it. */
+static void check_causes(struct deck_reader *reader, struct place place)
+{
+    const struct rotor *rotor = &reader->job->rotor;
+    for (int i = 0; i < rotor->neffect; i++)
+        if (!reader->machine->without_effect[i] && !rotor->effect[i].kind->spring && effect_is_of_test(&rotor->effect[i], rotor))
+            deck_note(reader, place, "the machine has %s, a %s of the test: expected its name in WITHOUT", rotor->effect[i].name,
+                      rotor->effect[i].kind->at_sensor ? "sensor" : "support");
+}
+
 /* Whether the machine has what a card of the first state adds to the rotor. */
 static int is_in_machine(const struct rotor *rotor, const struct machine *machine, const struct card *card)
 {
@@ -656,6 +666,7 @@ void deck_read_machine(struct deck_reader *reader, struct states *states)
                    "MARGIN=API617 goes by the amplification factor of a response, expected *UNBALANCE and *PROBE with it");
     check_runup(&own, reader->running[0].place);
     check_disks(&own, reader->running[0].place);
+    check_causes(&own, reader->running[0].place);
     tell_first_state(reader, own.machine, states);
     for (int s = 0; s < states->nstate; s++) {
         states->state[s].job.nfile = own.text.nfile;

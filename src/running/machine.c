@@ -71,6 +71,15 @@ int machine_fit(struct pool *pool, const struct states *states, const rotid_fit_
     return ROTID_OK;
 }
 
+int effect_is_of_test(const struct effect *effect, const struct rotor *rotor)
+{
+    struct effect_point point = {.z = 0};
+    if (effect->kind->spring || effect->kind->at_sensor)
+        return 1;
+    return effect->kind->point && effect->kind->point(effect, rotor, 0, -1, &point) &&
+           (point.lateral != 0 || point.rotational != 0);
+}
+
 /* By its name, or with the disk that it belongs to. */
 static int is_gone(const struct machine *machine, const struct rotor *rotor, int effect)
 {

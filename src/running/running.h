@@ -158,6 +158,9 @@ double machine_bearing_factor(const struct machine *machine, const struct machin
  * ROTID_ERROR_MEMORY. */
 int machine_fit(struct pool *pool, const struct states *states, const rotid_fit_result *fit, rotid_fit_result *own);
 
+/* Whether a cause is a support of the test, or at a sensor. */
+int effect_is_of_test(const struct effect *effect, const struct rotor *rotor);
+
 /* Whether a parameter of the rotor at rest, or unknown p, acts in the machine: what it is of may have been left at the test. */
 int machine_has(const struct machine *machine, const struct rotor *rotor, struct parameter parameter);
 int machine_has_unknown(const struct machine *machine, const struct job *job, int p);

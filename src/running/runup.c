@@ -302,16 +302,6 @@ int runup_compare(struct pool *pool, const struct machine *machine, const struct
 
 /* ---- of explanations */
 
-/* Of the test alone: supports, and what is at a sensor. */
-static int stays_at_rest(const struct effect *effect, const struct rotor *rotor)
-{
-    struct effect_point point = {.z = 0};
-    if (effect->kind->spring || effect->kind->at_sensor)
-        return 1;
-    return effect->kind->point && effect->kind->point(effect, rotor, 0, -1, &point) &&
-           (point.lateral != 0 || point.rotational != 0);
-}
-
 /* The machine of states with causes besides those of the deck, and what their fit says of its unknowns. */
 static int explained(struct pool *pool, const struct states *deck, const struct states *states, const rotid_fit_result *fit,
                      struct machine *machine, rotid_fit_result *mine)
@@ -323,7 +313,7 @@ static int explained(struct pool *pool, const struct states *deck, const struct 
     if (!without)
         return ROTID_ERROR_MEMORY;
     for (int e = 0; e < rotor->neffect; e++)
-        without[e] = e < known ? machine->without_effect[e] : stays_at_rest(&rotor->effect[e], rotor);
+        without[e] = e < known ? machine->without_effect[e] : effect_is_of_test(&rotor->effect[e], rotor);
     machine->without_effect = without;
     own.machine = machine;
     return machine_fit(pool, &own, fit, mine);
