@@ -187,15 +187,6 @@ static int take_picks(struct command *command, const struct option_row *row, con
     return ema->npick ? 0 : EXIT_USAGE;
 }
 
-static int take_shard(const char *text, struct study_arguments *study)
-{
-    int end = 0;
-    if (sscanf(text, "%9d/%9d%n", &study->shard, &study->shards, &end) != 2 || text[end] || study->shard < 1 ||
-        study->shard > study->shards)
-        return arguments_wrong("--shard %s: expected I/N with I from 1 to N", text);
-    return 0;
-}
-
 static int take_override(struct command *command, const char *text)
 {
     if (override_parse(&command->pool, text, &command->override[command->noverride]))
@@ -208,6 +199,7 @@ static int take_override(struct command *command, const char *text)
 static int option_take(struct command *command, const struct option_row *row, const char *text)
 {
     void *member = (char *)command + row->offset;
+    struct study_arguments *study = member;
     double number = 0;
     int index = 0, wrong = 0;
     if (row->kind == OPTION_WHOLE || row->kind == OPTION_SEED || row->kind == OPTION_REAL)
@@ -241,7 +233,8 @@ static int option_take(struct command *command, const struct option_row *row, co
     case OPTION_PICK:
         return take_picks(command, row, text, member);
     case OPTION_SHARD:
-        return take_shard(text, member);
+        wrong = !shard_parse(text, &study->shard, &study->shards);
+        return wrong ? arguments_wrong("--shard %s: expected I/N with I from 1 to N", text) : 0;
     case OPTION_OVERRIDE:
         return take_override(command, text);
     default:

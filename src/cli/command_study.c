@@ -120,8 +120,8 @@ int study_conduct(struct command *command, const struct study *study, study_comp
     struct study_record record;
     int code = EXIT_DONE;
     command_watch_signals();
-    int status =
-        record_open(&command->pool, command->output, &header, study->input, arguments->retry_failed, &command->messages, &record);
+    int status = record_open(&command->pool, command->output, &header, study->plan->path ? NULL : study->deck,
+                             arguments->retry_failed, &command->messages, &record);
     if (status)
         return refuse_study(command, status);
     command_print_messages(command);

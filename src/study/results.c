@@ -81,13 +81,11 @@ struct study_header header_of(struct pool *pool, const struct study *study, cons
                                  .shard = shards > 1 ? pool_format(pool, "%d/%d", shard, shards) : NULL};
 }
 
-/* The shard that the file is of: runs with run % shards == shard - 1; 1 of 1: all. 0 where its text is none. */
-static int header_shard(const struct study_header *header, int *shard, int *shards)
+int shard_parse(const char *text, int *shard, int *shards)
 {
     int end = 0;
     *shard = *shards = 1;
-    return !header->shard || (sscanf(header->shard, "%9d/%9d%n", shard, shards, &end) == 2 && !header->shard[end] &&
-                              *shard >= 1 && *shard <= *shards);
+    return !text || (sscanf(text, "%9d/%9d%n", shard, shards, &end) == 2 && !text[end] && *shard >= 1 && *shard <= *shards);
 }
 
 char *header_text(const struct study_header *header)
@@ -217,7 +215,7 @@ int results_header_read(struct pool *pool, const char *text, size_t length, stru
     if (wrong && !*wrong)
         return ROTID_ERROR_MEMORY;
     return !wrong && header->schema == RESULT_SCHEMA && !strcmp(header->command, "study") && header->seed <= 4294967295.0 &&
-                   header->runs <= STUDY_MOST_RUNS && header_shard(header, &shard, &shards)
+                   header->runs <= STUDY_MOST_RUNS && shard_parse(header->shard, &shard, &shards)
                ? ROTID_OK
                : ROTID_ERROR_SYNTAX;
 }
@@ -279,7 +277,7 @@ static int read_header(struct reading *r, struct pool *pool)
         return refuse_line(r, "this is no file of results of rotid study, expected one or a new name");
     if (status)
         return status;
-    (void)header_shard(&file->header, &file->shard, &file->shards);
+    (void)shard_parse(file->header.shard, &file->shard, &file->shards);
     stamp_study(&file->header, file->study);
     file->place = POOL_ARRAY(pool, struct result_place, file->header.runs);
     return file->place ? ROTID_OK : ROTID_ERROR_MEMORY;
@@ -503,9 +501,9 @@ static int compare(struct pool *pool, const struct study_record *record, const s
                    struct message_list *messages)
 {
     const struct results *file = &record->file;
-    const char *difference = header_difference(pool, &file->header, header, record->input != NULL);
+    const char *difference = header_difference(pool, &file->header, header, record->deck != NULL);
     int shard, shards;
-    (void)header_shard(header, &shard, &shards);
+    (void)shard_parse(header->shard, &shard, &shards);
     if (!difference)
         return ROTID_ERROR_MEMORY;
     if (*difference)
@@ -543,7 +541,7 @@ static int read_lines(struct pool *pool, struct study_record *record, const stru
         status = cut(file, messages);
     for (long run = 0; run < header->runs && !status; run++) {
         struct result_place *at = &file->place[run];
-        int other = record->input && at->input && at->input != digest_name(record->input[run]); /* deck of another time */
+        int other = record->deck && at->input && at->input != digest_name(record->deck[run].digest); /* deck of another time */
         changed += other;
         if (other || (at->failed && retry_failed))
             *at = (struct result_place){0};
@@ -556,13 +554,13 @@ static int read_lines(struct pool *pool, struct study_record *record, const stru
     return status == ROTID_ERROR_SYNTAX ? ROTID_ERROR_ARGUMENT : status;
 }
 
-int record_open(struct pool *pool, const char *path, const struct study_header *header, const char *const *input,
+int record_open(struct pool *pool, const char *path, const struct study_header *header, const struct study_deck *deck,
                 int retry_failed, struct message_list *messages, struct study_record *record)
 {
     struct results *file = &record->file;
     char *first = header_text(header);
     int descriptor = -1, status = first ? open_locked(path, messages, &descriptor) : ROTID_ERROR_MEMORY;
-    *record = (struct study_record){.input = input, .synced = clock_seconds(), .file = {.last = -1, .in_order = 1}};
+    *record = (struct study_record){.deck = deck, .synced = clock_seconds(), .file = {.last = -1, .in_order = 1}};
     if (!status && !(file->stream = fdopen(descriptor, "r+b")))
         (void)close(descriptor);
     if (!status && !(file->path = record->path = file->stream ? realpath(path, NULL) : NULL))

@@ -457,10 +457,5 @@ int study_open(struct pool *pool, const struct plan *plan, int noverride, const 
     if (status)
         return status;
     digest_plan(pool, study);
-    study->input = plan->path ? NULL : POOL_ARRAY(pool, const char *, study->runs); /* a run a deck */
-    for (long i = 0; i < study->runs && study->input; i++)
-        study->input[i] = study->deck[i].digest;
-    if (!plan->path && !study->input)
-        return ROTID_ERROR_MEMORY;
     return pool->out_of_memory || messages->pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
 }

@@ -145,7 +145,6 @@ struct study {
     const struct override *override;
     unsigned long seed;
     struct study_deck *deck; /* [decks] */
-    const char **input;      /* [runs] digests of the decks of a study of decks, which may change between two starts; else NULL */
     long runs;
     int nfile;
     const char **file; /* what the decks are read from, where they can be read */
@@ -227,6 +226,9 @@ int experiment_make(struct pool *pool, struct jobs *jobs, const struct study_poi
 /* ---------------------------------------------------------------------------------------------------------------- header */
 
 /* The first line of a file of results: which study it is of. Lines of the study carry a stamp of it. */
+
+/* The shard that a text such as "2/3" tells: runs with run % shards == shard - 1; NULL, 1 of 1: all. 0 where it is none. */
+int shard_parse(const char *text, int *shard, int *shards);
 
 /* Leans on the study; its shard, 1 of 1: all, is a text on the pool. */
 struct study_header header_of(struct pool *pool, const struct study *study, const char *version, const char *commit, int shard,
@@ -317,19 +319,18 @@ int merge_results(struct pool *pool, int count, char *const *part, const char *p
  * whole lines and at most one that is cut, which the next start removes. One process at a time holds its lock. */
 
 struct study_record {
-    struct results file;       /* runs that are to be computed again have no line */
-    char *path;                /* without symbolic links */
-    const char *const *input;  /* [runs] digests of decks of which each may change, whose run is computed again then; NULL: none
-                                  may */
-    long wanted, done, failed; /* of the shard; failed ones are among those done */
-    long next;                 /* where record_take goes on */
-    double synced;             /* on the clock */
+    struct results file;           /* runs that are to be computed again have no line */
+    char *path;                    /* without symbolic links */
+    const struct study_deck *deck; /* [runs] decks of which each may change, whose run is computed again then; NULL: none may */
+    long wanted, done, failed;     /* of the shard; failed ones are among those done */
+    long next;                     /* where record_take goes on */
+    double synced;                 /* on the clock */
 };
 
-/* Opens or creates the file of the study that the header and `input` (as above) tell, and locks it. What is cut at its end goes;
+/* Opens or creates the file of the study that the header and `deck` (as above) tell, and locks it. What is cut at its end goes;
  * everything else stays as it is. ROTID_OK; ROTID_ERROR_ARGUMENT where the file is something else, of another study or in use,
  * ROTID_ERROR_IO: the list says why; ROTID_ERROR_MEMORY. Without ROTID_OK nothing is open. */
-int record_open(struct pool *pool, const char *path, const struct study_header *header, const char *const *input,
+int record_open(struct pool *pool, const char *path, const struct study_header *header, const struct study_deck *deck,
                 int retry_failed, struct message_list *messages, struct study_record *record);
 
 /* The next run that is missing and was not given out yet, or -1. */
