@@ -25,15 +25,11 @@ struct growing {
 
 static int read_kind(struct uff_lines *lines, struct uff_shape *shape)
 {
-    int status = ROTID_OK;
-    for (int i = 0; i < UFF_ID_LINES && status == ROTID_OK; ++i)
-        status = uff_read_text(lines, "five lines of text", shape->id[i]);
+    int status = uff_read_id(lines, shape->id);
     if (status == ROTID_OK)
         status = uff_read_record(lines, &uff_kind_55, shape);
-    if (status != ROTID_OK)
-        return status;
     shape->is_complex = shape->data_type == COMPLEX_DATA;
-    return ROTID_OK;
+    return status;
 }
 
 static int uff_read_shape_kind(struct uff_reader *reader, struct uff_shape *shape)

@@ -637,10 +637,11 @@ void uff_copy_text(const char *text, size_t length, size_t room, char *out)
     out[length] = '\0';
 }
 
-int uff_read_text(struct uff_lines *lines, const char *expected, char out[UFF_TEXT + 1])
+int uff_read_id(struct uff_lines *lines, char id[UFF_ID_LINES][UFF_TEXT + 1])
 {
-    int status = uff_expect_line(lines, expected);
-    if (status == ROTID_OK)
-        uff_copy_text(lines->text, lines->length, UFF_TEXT + 1, out);
+    int status = ROTID_OK;
+    for (int i = 0; i < UFF_ID_LINES && status == ROTID_OK; ++i)
+        if (!(status = uff_expect_line(lines, "five lines of text")))
+            uff_copy_text(lines->text, lines->length, UFF_TEXT + 1, id[i]);
     return status;
 }

@@ -189,9 +189,7 @@ static int read_data_form(struct uff_lines *lines, struct uff_function *function
 static int read_records(struct uff_lines *lines, struct uff_function *function)
 {
     static const struct uff_record *const axis[] = {&uff_abscissa_58, &uff_ordinate_58, &uff_denominator_58, &uff_z_axis_58};
-    int status = ROTID_OK;
-    for (int i = 0; i < UFF_ID_LINES && status == ROTID_OK; ++i)
-        status = uff_read_text(lines, "five lines of text", function->id[i]);
+    int status = uff_read_id(lines, function->id);
     if (status == ROTID_OK)
         status = uff_read_record(lines, &uff_location_58, function);
     if (status == ROTID_OK)

@@ -416,8 +416,8 @@ int uff_cut_record(struct uff_lines *lines, const struct uff_record *record, str
 /* Copies a text to out [room], without trailing blanks, cut to its room; NONE gives the empty text. */
 void uff_copy_text(const char *text, size_t length, size_t room, char *out);
 
-/* The next line as a text of at most UFF_TEXT characters. */
-int uff_read_text(struct uff_lines *lines, const char *expected, char out[UFF_TEXT + 1]);
+/* The five lines of text of a set, each of at most UFF_TEXT characters. */
+int uff_read_id(struct uff_lines *lines, char id[UFF_ID_LINES][UFF_TEXT + 1]);
 
 /* Where the fields of a line stand. */
 
