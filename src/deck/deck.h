@@ -435,14 +435,14 @@ void deck_put_option(struct deck_writer *w, const char *name, const char *value)
 void deck_put_option_number(struct deck_writer *w, const char *name, double value, const char *what);
 
 /* Cards of w->job. *MODES, *SHAPE, *FREQUENCIES and, where all modes have one noise, *NOISE, as they were read; with_sensors:
- * *SENSORS before; the two alone (NaN: without). The faults of the data from `first` on; a cause; the line of unknown p in
+ * *SENSORS before; the two alone (NaN: without). The faults of the data from `first` on; a cause; the line of an unknown in
  * *IDENTIFY under this name; HOLDOUT= of the modes that are held out, "" where none is. */
 void deck_put_measured(struct deck_writer *w, int with_sensors);
 void deck_put_sensors(struct deck_writer *w, int count, const struct sensor *sensor);
 void deck_put_noise(struct deck_writer *w, double frequency, double shape);
 void deck_put_corrections(struct deck_writer *w, int first);
 void deck_put_cause(struct deck_writer *w, const struct effect *effect);
-void deck_put_unknown(struct deck_writer *w, int p, const char *name);
+void deck_put_unknown(struct deck_writer *w, const rotid_parameter *bounds, const char *name);
 void deck_put_holdout(struct deck_writer *w);
 
 /* A line of text that a deck takes for text. */

@@ -285,9 +285,8 @@ void deck_put_holdout(struct deck_writer *w)
         }
 }
 
-void deck_put_unknown(struct deck_writer *w, int p, const char *name)
+void deck_put_unknown(struct deck_writer *w, const rotid_parameter *bounds, const char *name)
 {
-    const rotid_parameter *bounds = &w->job->unknowns.bounds[p];
     const char *unit = bounds->unit ? bounds->unit : "";
     deck_put(w, "%s", name);
     deck_put_number(w, ", ", bounds->lower, unit);

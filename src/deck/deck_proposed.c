@@ -23,11 +23,11 @@ static void put_value(struct deck_writer *w, const char *name, const char *param
 /* The unknown of this state alone that takes the place of a common one. */
 static void put_unknown(struct deck_writer *w, const char *name, const char *parameter, double value)
 {
-    deck_put(w, "*IDENTIFY\n%s.%s", name, parameter);
-    deck_put_number(w, ", ", value / WIDER, unit_of(parameter));
-    deck_put_number(w, ", ", value * WIDER, unit_of(parameter));
-    deck_put_number(w, ", ", value, unit_of(parameter));
-    deck_put(w, "\n");
+    const rotid_parameter bounds = {.unit = unit_of(parameter), .lower = value / WIDER, .upper = value * WIDER, .start = value};
+    const char *unknown = pool_format(w->pool, "%s.%s", name, parameter);
+    deck_put(w, "*IDENTIFY\n");
+    if (unknown)
+        deck_put_unknown(w, &bounds, unknown);
 }
 
 static int is_unknown(const struct job *job, enum parameter_kind kind, int spring)

@@ -550,7 +550,7 @@ static void put_new(struct writing *w, int s, int common, struct deck_writer *ou
         if (find_unknown(given, name) >= 0 || is_common != common)
             continue;
         deck_put(out, "%s", any++ ? "" : "*IDENTIFY\n");
-        deck_put_unknown(out, p, name);
+        deck_put_unknown(out, &meant->job.unknowns.bounds[p], name);
     }
 }
 
