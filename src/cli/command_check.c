@@ -9,8 +9,8 @@ static void free_all(const struct result *result)
         rotid_check_free(result->check);
 }
 
-/* Of each state, or of the deck that is one, with the job that it is read as. */
-static int look(struct command *command, struct result *result, const struct job **job)
+/* Of each state, or of the deck that is one. */
+static int look(struct command *command, struct result *result)
 {
     for (int s = 0; s < command_state_count(command); s++) {
         char failure[ROTID_FAILURE_LENGTH];
@@ -20,7 +20,8 @@ static int look(struct command *command, struct result *result, const struct job
         int status = rotid_deck_check(deck, NULL, failure, check);
         if (status)
             return command_fail_with(command, status, failure);
-        job[s] = deck_job_of(deck);
+        if (name)
+            result->states[s].job = deck_job_of(deck);
         if (!s)
             result->check = *check;
     }
@@ -29,16 +30,12 @@ static int look(struct command *command, struct result *result, const struct job
 
 int command_check(struct command *command)
 {
-    struct result result = {.head = command->head};
-    const struct job **job = POOL_ARRAY(&command->pool, const struct job *, command_state_count(command));
-    int code = job ? command_begin_states(command, &result) : command_fail(command, ROTID_ERROR_MEMORY);
+    struct result result = {.head = command->head, .job = command->job};
+    int code = command_begin_states(command, &result);
     if (!code)
-        code = look(command, &result, job);
-    if (!code && command_wants_table(command)) {
-        const struct screen to = command_screen(command);
-        screen_check(&to, &result, job);
-        screen_notes(&to, &command->messages);
-    }
+        code = look(command, &result);
+    if (!code)
+        command_show(command, &result, screen_check);
     if (!code)
         code = command_write_result(command, &result, EXIT_DONE);
     free_all(&result);

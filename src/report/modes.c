@@ -3,17 +3,17 @@
 
 #include "report/report.h"
 
-/* The heading and what a command found, of several states one after the other; job: of each, or NULL. */
-static void print_states(const struct screen *to, const struct result *result, const struct job *const *job,
-                         void (*print)(const struct screen *to, const struct result *result, const struct job *job))
+/* The heading and what a command found, of several states one after the other. */
+static void print_states(const struct screen *to, const struct result *result,
+                         void (*print)(const struct screen *to, const struct result *result))
 {
     screen_heading(to, &result->head);
     if (!result->nstates)
-        print(to, result, job ? job[0] : NULL);
+        print(to, result);
     for (int s = 0; s < result->nstates; s++) {
         const struct result own = result_of_state(to->pool, result, s);
         screen_state(to, s, result->states[s].name);
-        print(to, &own, job ? job[s] : NULL);
+        print(to, &own);
     }
 }
 
@@ -107,8 +107,9 @@ static int is_free(int count, const double *hz)
     return free;
 }
 
-static void print_check(const struct screen *to, const struct result *result, const struct job *job)
+static void print_check(const struct screen *to, const struct result *result)
 {
+    const struct job *job = result->job;
     const rotid_check *check = result->check;
     FILE *out = to->out;
     print_length(out, "length", check->length_m, "");
@@ -149,9 +150,9 @@ static void print_check(const struct screen *to, const struct result *result, co
         screen_say(to, "%s", steps);
 }
 
-void screen_check(const struct screen *to, const struct result *result, const struct job *const *job)
+void screen_check(const struct screen *to, const struct result *result)
 {
-    print_states(to, result, job, print_check);
+    print_states(to, result, print_check);
 }
 
 /* ---- modes */
@@ -244,10 +245,9 @@ struct shown shown_of_modes(struct pool *pool, const rotid_spectrum *s)
     return shown;
 }
 
-static void print_modes(const struct screen *to, const struct result *result, const struct job *job)
+static void print_modes(const struct screen *to, const struct result *result)
 {
     const struct shown shown = shown_of_modes(to->pool, result->modes);
-    (void)job;
     screen_shown(to, &shown);
     if (to->verbose)
         screen_table(to, table_of_shapes(to->pool, NULL, result->modes));
@@ -255,7 +255,7 @@ static void print_modes(const struct screen *to, const struct result *result, co
 
 void screen_modes(const struct screen *to, const struct result *result)
 {
-    print_states(to, result, NULL, print_modes);
+    print_states(to, result, print_modes);
 }
 
 /* ---- sensitivity */
@@ -314,11 +314,10 @@ static struct table *table_of_curves(struct pool *pool, const struct sensitivity
     return table;
 }
 
-static void print_sensitivity(const struct screen *to, const struct result *result, const struct job *job)
+static void print_sensitivity(const struct screen *to, const struct result *result)
 {
     const struct sensitivity *s = result->sensitivity;
     struct pool *pool = to->pool;
-    (void)job;
     screen_paragraph(to, "", sensitivity_in_words(pool, s));
     screen_table(to, table_of_sensitivity(pool, s));
     for (int p = 0; p < s->nparameters; p++) {
@@ -329,5 +328,5 @@ static void print_sensitivity(const struct screen *to, const struct result *resu
 
 void screen_sensitivity(const struct screen *to, const struct result *result)
 {
-    print_states(to, result, NULL, print_sensitivity);
+    print_states(to, result, print_sensitivity);
 }

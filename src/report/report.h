@@ -426,8 +426,8 @@ void screen_shown(const struct screen *to, const struct shown *shown);
 /* A table behind an empty line; nothing of one without rows. */
 void screen_table(const struct screen *to, const struct table *table);
 
-/* job: one for each state, whose CAUSE cards are told. */
-void screen_check(const struct screen *to, const struct result *result, const struct job *const *job);
+/* The CAUSE cards of the job of each state are told. */
+void screen_check(const struct screen *to, const struct result *result);
 void screen_modes(const struct screen *to, const struct result *result);
 void screen_suggest(const struct screen *to, const struct result *result);
 void screen_sensitivity(const struct screen *to, const struct result *result);

@@ -183,6 +183,7 @@ struct result result_of_state(struct pool *pool, const struct result *result, in
             *own.identify = fit_of_state(pool, result->identify, s);
         return own;
     }
+    own.job = result->states[s].job;
     own.check = result->states[s].check;
     own.modes = result->states[s].modes;
     own.sensitivity = result->states[s].sensitivity;

@@ -271,7 +271,8 @@ struct lacking {
 
 /* What a command found of one of several states. */
 struct result_state {
-    const char *name; /* of the *STATE */
+    const char *name;      /* of the *STATE */
+    const struct job *job; /* of a check that was made here */
     /* of the command; the others are NULL */
     rotid_check *check;
     rotid_spectrum *modes;
@@ -281,6 +282,7 @@ struct result_state {
 
 struct result {
     struct result_head head;
+    const struct job *job; /* of a check that was made here, of a deck that is one state */
     /* of the command that head.command names, of several states the first one's; the others are NULL */
     rotid_check *check;
     rotid_spectrum *modes;
