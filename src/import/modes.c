@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SET_NODES = 2411, NORMAL_MODE = 2, UNKNOWN_ANALYSIS = 0, VECTOR = 2, DISPLACEMENT = 8, REAL_DATA = 2 };
+enum { SET_NODES = 2411, VECTOR = 2, DISPLACEMENT = 8 };
 
 struct writing {
     FILE *stream;

@@ -9,9 +9,6 @@
 /* Set 55, data at nodes: five lines of text, 6: what the data are, 7 and 8: integers and reals of the analysis, then for each
  * node its number and its values. */
 
-enum { NORMAL_MODE = 2, COMPLEX_FIRST_ORDER = 3, FREQUENCY_RESPONSE = 5, COMPLEX_SECOND_ORDER = 7 }; /* analysis type */
-enum { REAL_DATA = 2, COMPLEX_DATA = 5 };                                                            /* data type */
-
 struct placed_values { /* of one node */
     int node, line;
     double value[12]; /* as in the file: of a complex number the real and the imaginary part in turn */
@@ -39,7 +36,7 @@ static int uff_read_shape_kind(struct uff_reader *reader, struct uff_shape *shap
     return status == ROTID_OK ? uff_end(reader, read_kind(&reader->lines, shape), UFF_AT_DATA) : status;
 }
 
-static int is_eigenvalue(const struct uff_shape *shape)
+int uff_has_eigenvalue(const struct uff_shape *shape)
 {
     return shape->analysis_type == COMPLEX_FIRST_ORDER || shape->analysis_type == COMPLEX_SECOND_ORDER;
 }
@@ -50,7 +47,7 @@ static void take_reals(struct uff_shape *shape, int count, const double *real)
     double six[6] = {0};
     for (int i = 0; i < count && i < 6; ++i)
         six[i] = real[i];
-    if (is_eigenvalue(shape)) {
+    if (uff_has_eigenvalue(shape)) {
         double modulus = hypot(real[0], real[1]);
         int oscillates = real[1] != 0; /* else it is as a rigid-body mode, which has zero here */
         for (int i = 0; i < 2; ++i) {
@@ -65,7 +62,7 @@ static void take_reals(struct uff_shape *shape, int count, const double *real)
         shape->modal_mass = six[1];
         shape->damping = six[2];
         shape->hysteretic = six[3];
-    } else if (shape->analysis_type == FREQUENCY_RESPONSE || shape->analysis_type == 0) {
+    } else if (shape->analysis_type == FREQUENCY_RESPONSE || shape->analysis_type == UNKNOWN_ANALYSIS) {
         shape->frequency_hz = six[0];
     }
 }
@@ -78,8 +75,8 @@ static int read_mode(struct uff_lines *lines, struct uff_shape *shape)
     int integer[UFF_VALUE_LIMIT + 2];
     double real[UFF_VALUE_LIMIT];
     struct uff_cell cell[UFF_CELL_LIMIT];
-    int is_mode = is_eigenvalue(shape) || shape->analysis_type == NORMAL_MODE || shape->analysis_type == FREQUENCY_RESPONSE;
-    int least_integers = is_mode ? 2 : 1, least_reals = is_eigenvalue(shape) ? 2 : 1;
+    int is_mode = uff_has_eigenvalue(shape) || shape->analysis_type == NORMAL_MODE || shape->analysis_type == FREQUENCY_RESPONSE;
+    int least_integers = is_mode ? 2 : 1, least_reals = uff_has_eigenvalue(shape) ? 2 : 1;
 
     int status = uff_expect_line(lines, "record 7 (numbers of integers and reals, load case, mode number)");
     if (status != ROTID_OK)
@@ -315,7 +312,7 @@ static int note_other_data(struct uff_run *job, const struct uff_shape *shape)
     static const char *const analysis_name[] = {"unknown", "static", "", "", "transient", "", "buckling"};
     int analysis = shape->analysis_type;
     int characteristic = shape->data_characteristic, quantity = shape->specific_type;
-    if (analysis != 2 && analysis != 3 && analysis != 5 && analysis != 7) {
+    if (analysis != NORMAL_MODE && analysis != FREQUENCY_RESPONSE && !uff_has_eigenvalue(shape)) {
         int named = analysis >= 0 && analysis < (int)(sizeof analysis_name / sizeof *analysis_name);
         note_skip(job, shape->line, "set 55 of analysis type %d (%s)", analysis,
                   named ? analysis_name[analysis] : "not known here");
@@ -407,7 +404,7 @@ int uff_read(struct pool *pool, const char *path, struct message_list *messages,
 
 int uff_is_mode(const struct uff_shape *shape)
 {
-    return shape->analysis_type != 5; /* 5 is a frequency response: an operating shape */
+    return shape->analysis_type != FREQUENCY_RESPONSE; /* an operating shape */
 }
 
 static int compare_shapes(const void *left, const void *right)

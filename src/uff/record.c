@@ -360,8 +360,6 @@ int uff_write_nodes(FILE *stream, int set, int count, const struct uff_node *nod
 
 /* Data at nodes: sets 55 and 2414. */
 
-enum { NORMAL_MODE = 2, COMPLEX_FIRST_ORDER = 3, COMPLEX_SECOND_ORDER = 7 }; /* analysis type */
-
 static void put_ids(struct uff_put *put, const char (*id)[UFF_TEXT + 1])
 {
     for (int i = 0; i < UFF_ID_LINES; ++i)
@@ -378,7 +376,7 @@ static void put_mode(struct uff_put *put, const struct uff_shape *shape)
         real[2] = shape->damping;
         real[3] = shape->hysteretic;
         count = 4;
-    } else if (shape->analysis_type == COMPLEX_FIRST_ORDER || shape->analysis_type == COMPLEX_SECOND_ORDER) {
+    } else if (uff_has_eigenvalue(shape)) {
         memcpy(real, shape->eigenvalue, sizeof shape->eigenvalue);
         memcpy(real + 2, shape->modal_a, sizeof shape->modal_a);
         memcpy(real + 4, shape->modal_b, sizeof shape->modal_b);
@@ -394,14 +392,13 @@ static void put_mode(struct uff_put *put, const struct uff_shape *shape)
 int uff_write_shape(FILE *stream, const struct uff_shape *shape)
 {
     int components = shape->component_count, is_complex = shape->is_complex != 0;
-    int is_eigenvalue = shape->analysis_type == COMPLEX_FIRST_ORDER || shape->analysis_type == COMPLEX_SECOND_ORDER;
     if (components < 1 || components > 6 || shape->node_count < 0 || (is_complex && shape->node_count && !shape->imag))
         return ROTID_ERROR_ARGUMENT;
-    if (is_eigenvalue && shape->frequency_hz > 0 && shape->eigenvalue[0] == 0 && shape->eigenvalue[1] == 0)
+    if (uff_has_eigenvalue(shape) && shape->frequency_hz > 0 && shape->eigenvalue[0] == 0 && shape->eigenvalue[1] == 0)
         return ROTID_ERROR_ARGUMENT; /* the frequency would be lost */
 
     struct uff_shape head = *shape;
-    head.data_type = is_complex ? 5 : 2;
+    head.data_type = is_complex ? COMPLEX_DATA : REAL_DATA;
     struct uff_put put;
     uff_put_open(&put, stream, 55);
     put_ids(&put, shape->id);
@@ -428,8 +425,7 @@ int uff_write_shape(FILE *stream, const struct uff_shape *shape)
 
 static void put_records(struct uff_put *put, const struct uff_function *function)
 {
-    for (int i = 0; i < UFF_ID_LINES; ++i)
-        uff_put_text_line(put, function->id[i]);
+    put_ids(put, function->id);
     struct uff_function form = *function;
     form.is_even = function->is_even != 0;
     form.start = form.is_even ? form.start : 0;

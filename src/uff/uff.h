@@ -52,12 +52,15 @@ struct uff_node { /* sets 15, 781, 2411 */
     double x[3];
 };
 
+/* Of set 55: analysis types and data types. */
+enum { UNKNOWN_ANALYSIS = 0, NORMAL_MODE = 2, COMPLEX_FIRST_ORDER = 3, FREQUENCY_RESPONSE = 5, COMPLEX_SECOND_ORDER = 7 };
+enum { REAL_DATA = 2, COMPLEX_DATA = 5 };
+
 struct uff_shape { /* one set 55 */
     int line;      /* of the '-1' that opens the set, from 1 */
     char id[UFF_ID_LINES][UFF_TEXT + 1];
-    int model_type, analysis_type; /* analysis 0 unknown, 2 normal mode; 3, 7 complex eigenvalue; 5 frequency response */
-    int data_characteristic, specific_type,
-        data_type; /* 2 vector3, 3 vector6; 8 displacement, 11 velocity, 12 acceleration; 2 real, 5 complex */
+    int model_type, analysis_type;
+    int data_characteristic, specific_type, data_type; /* 2 vector3, 3 vector6; 8 displacement, 11 velocity, 12 acceleration */
     int load_case;
     int number;          /* of the mode, or with analysis type 5 of the frequency; from record 7 */
     double frequency_hz; /* 0: a mode that does not oscillate */
@@ -205,6 +208,9 @@ int uff_read(struct pool *pool, const char *path, struct message_list *messages,
 
 /* What sets 55 of `rotid ema` hold beside the shapes. */
 enum uff_extra { UFF_EXTRA_SHAPE_STD, UFF_EXTRA_POINT, UFF_EXTRA_POINT_STD, UFF_EXTRAS };
+
+/* Whether a shape has a complex eigenvalue. */
+int uff_has_eigenvalue(const struct uff_shape *shape);
 
 /* Whether a shape is one of a mode: not a frequency response. */
 int uff_is_mode(const struct uff_shape *shape);
