@@ -90,7 +90,7 @@ static void measure_functions(struct bench *b, struct pool *pool)
     assert_int_equal(own.nline, LINES);
     for (int i = 0; i < POINTS; i++) {
         assert_close(own.frequency_hz[i], b->line[i], 1e-3, 0);
-        frf_synthesised(&own, i, 1, b->h[i], work);
+        frf_synthesised(&own, i, b->h[i], work);
         b->frf[i] = (struct frf){
             .response_node = 10 * (i + 1), .response_direction = 1, .reference_node = 30, .reference_direction = 1, .h = b->h[i]};
     }

@@ -99,7 +99,7 @@ static int add_functions(const struct frf_view *view, struct transfer_result *ou
             continue;
         f->nfrequency_hz = r->nline;
         f->frequency_hz = r->frequency_hz;
-        frf_synthesised(r, out->nfunctions, 1, h, work);
+        frf_synthesised(r, out->nfunctions, h, work);
         if (complex_parts(pool, r->nline, h, &f->synthesised_re, &f->synthesised_im))
             return 1;
         if (!r->is_measured)
@@ -200,7 +200,7 @@ static int write_function(FILE *stream, const struct frf_view *view, int i, doub
                    row->reference);
     (void)snprintf(f.numerator.label, sizeof f.numerator.label, "%s", labels[r->quantity]);
     (void)snprintf(f.numerator.unit, sizeof f.numerator.unit, "%s", units[r->quantity]);
-    frf_synthesised(r, i, 1, h, work);
+    frf_synthesised(r, i, h, work);
     split(r->nline, h, re, im);
     int status = uff_write_function(stream, &f, &writer);
     if (!status)
@@ -500,7 +500,7 @@ static void print_first(const struct screen *to, const struct frf_view *view)
                    *measured = r->is_measured ? POOL_ARRAY(to->pool, double complex, r->nline) : NULL;
     if (!h || !work || (r->is_measured && !measured))
         return;
-    frf_synthesised(r, 0, 1, h, work);
+    frf_synthesised(r, 0, h, work);
     if (measured)
         frf_measured_curve(r, view->set, 0, measured);
     (void)fprintf(to->out, "\n%d over %d: %s [%s], * synthesised%s\n", r->row[0].response, r->row[0].reference,

@@ -575,10 +575,10 @@ static struct synthesis_lines lines_of(const struct frf_result *result)
         .nline = result->nline, .frequency_hz = result->frequency_hz, .quantity = result->quantity, .decay = result->decay};
 }
 
-void frf_synthesised(const struct frf_result *result, int first, int count, double complex *h, double complex *work)
+void frf_synthesised(const struct frf_result *result, int row, double complex *h, double complex *work)
 {
     struct synthesis_lines lines = lines_of(result);
-    synthesis_evaluate(&result->synthesis, &lines, result->synthesis.lambda, result->zeta, first, count, h, work);
+    synthesis_evaluate(&result->synthesis, &lines, result->synthesis.lambda, result->zeta, row, 1, h, work);
 }
 
 void frf_measured_curve(const struct frf_result *result, const struct frf_set *set, int row, double complex *h)

@@ -601,9 +601,9 @@ int frf_run(struct pool *pool, const struct job *job, const struct identificatio
             const struct frf_measured *measured, const rotid_environment *environment, struct message_list *notes,
             struct frf_result *out);
 
-/* Curves of `count` rows from `first`: synthesised [nline * count] (may be NULL) and measured [nline * count] (may be NULL; NaN
- * where there is none) in the quantity of the result, with the sign of the model's direction. work [nline]. */
-void frf_synthesised(const struct frf_result *result, int first, int count, double complex *h, double complex *work);
+/* The curves of a row, h [nline], in the quantity of the result and with the sign of the model's direction; of the measured one
+ * NaN where there is none. work [nline]. */
+void frf_synthesised(const struct frf_result *result, int row, double complex *h, double complex *work);
 void frf_measured_curve(const struct frf_result *result, const struct frf_set *set, int row, double complex *h);
 
 /* ---------------------------------------------------------------------------------------------------------------- growth */
