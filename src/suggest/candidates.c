@@ -171,7 +171,6 @@ static int pair_designs(struct pool *pool, const struct rivals *rivals, const st
 #define SAME_ENTROPY  0.05 /* that is worth no cost */
 #define MOST_REFITTED 3    /* tests */
 #define MOST_BESIDE   2    /* rivals of the best one */
-#define DRAWS         400  /* a chance to 0.025 */
 
 static const double mass_share[] = {0.05, 0.15}; /* of the rotor */
 
@@ -259,7 +258,7 @@ static int add_test(struct judging *j, struct test *t)
         return status ? status : ROTID_ERROR_MEMORY;
     for (int s = 0; s < t->nsensor; s++)
         made->sensors_m[s] = t->sensor[s];
-    status = margin_judge(j->pool, &j->out->rivals, t, DRAWS, (unsigned long)j->options->seed, made, &feasible);
+    status = margin_judge(j->pool, &j->out->rivals, t, (unsigned long)j->options->seed, made, &feasible);
     if (status || !feasible)
         return status;
     j->out->test[out->ntests++] = *t;

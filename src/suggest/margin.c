@@ -7,6 +7,8 @@
 #include "diagnose/diagnose.h"
 #include "linalg/linalg.h"
 
+#define DRAWS 400 /* a chance to 0.025 */
+
 struct side { /* a rival in the state of a test */
     int nrow, n, nscale;
     double *j;      /* [nrow * n] relative parameters that are not pressed against a bound */
@@ -251,7 +253,7 @@ static void weigh_draw(int n, int truth, int nown, const struct side *side, doub
 }
 
 /* *count over the draws; won [n] how often the lead over each rival suffices */
-static int draw_all(struct pool *pool, const struct rivals *rivals, int truth, struct side *side, const double *spread, int draws,
+static int draw_all(struct pool *pool, const struct rivals *rivals, int truth, struct side *side, const double *spread,
                     unsigned long seed, struct counts *count, int *won)
 {
     int nown = rivals->rival[rivals->n - 1].fit->n;
@@ -261,7 +263,7 @@ static int draw_all(struct pool *pool, const struct rivals *rivals, int truth, s
     double *w = POOL_ARRAY(pool, double, a->nrow), *z = POOL_ARRAY(pool, double, a->nrow), *chi2 = POOL_ARRAY(pool, double, n);
     if (!w || !z || !chi2)
         return ROTID_ERROR_MEMORY;
-    for (int draw = 0; draw < draws; draw++) {
+    for (int draw = 0; draw < DRAWS; draw++) {
         for (int i = 0; i < a->nrow; i++)
             w[i] = random_normal(&stream);
         for (int p = 0; p < a->n; p++) {
@@ -282,8 +284,8 @@ static int draw_all(struct pool *pool, const struct rivals *rivals, int truth, s
     return ROTID_OK;
 }
 
-static int judge_truth(struct pool *pool, const struct rivals *rivals, const struct test *test, int truth, int draws,
-                       unsigned long seed, rotid_suggested_test *out, int *feasible)
+static int judge_truth(struct pool *pool, const struct rivals *rivals, const struct test *test, int truth, unsigned long seed,
+                       rotid_suggested_test *out, int *feasible)
 {
     int n = rivals->n, nown = rivals->rival[n - 1].fit->n, *won = POOL_ARRAY(pool, int, n);
     struct side *side = POOL_ARRAY(pool, struct side, n);
@@ -300,13 +302,13 @@ static int judge_truth(struct pool *pool, const struct rivals *rivals, const str
     if (!spread)
         return ROTID_ERROR_MEMORY;
     make_spread(a, spread);
-    status = draw_all(pool, rivals, truth, side, spread, draws, seed, &count, won);
+    status = draw_all(pool, rivals, truth, side, spread, seed, &count, won);
     const struct rival *true_one = &rivals->rival[truth];
-    out->chance += rivals->among * true_one->share * count.named / draws;
-    out->wrong += rivals->among * true_one->share * count.wrong / draws;
-    out->entropy += true_one->share * count.entropy / draws;
+    out->chance += rivals->among * true_one->share * count.named / DRAWS;
+    out->wrong += rivals->among * true_one->share * count.wrong / DRAWS;
+    out->entropy += true_one->share * count.entropy / DRAWS;
     for (int p = 0; p < out->nexpected_percent; p++)
-        out->expected_percent[p] += true_one->share * count.variance[p] / draws;
+        out->expected_percent[p] += true_one->share * count.variance[p] / DRAWS;
     for (int b = 0; b < n && !status; b++) {
         double before = rivals->rival[b].score - true_one->score;
         if (b != truth)
@@ -316,12 +318,12 @@ static int judge_truth(struct pool *pool, const struct rivals *rivals, const str
                                                                     .distance = remainder_of(&side[b], side[b].d),
                                                                     .expected = expected(a, &side[b], spread, before),
                                                                     .refitted = NAN,
-                                                                    .chance = (double)won[b] / draws};
+                                                                    .chance = (double)won[b] / DRAWS};
     }
     return status;
 }
 
-int margin_judge(struct pool *pool, const struct rivals *rivals, const struct test *test, int draws, unsigned long seed,
+int margin_judge(struct pool *pool, const struct rivals *rivals, const struct test *test, unsigned long seed,
                  rotid_suggested_test *out, int *feasible)
 {
     int status = ROTID_OK, n = rivals->n;
@@ -335,7 +337,7 @@ int margin_judge(struct pool *pool, const struct rivals *rivals, const struct te
     for (int a = 0; a + 1 < n && !status && *feasible; a++) {
         struct pool scratch; /* models of every rival */
         pool_open(&scratch, pool->allocator);
-        status = judge_truth(&scratch, rivals, test, a, draws, seed, out, feasible);
+        status = judge_truth(&scratch, rivals, test, a, seed, out, feasible);
         status = scratch.out_of_memory ? ROTID_ERROR_MEMORY : status;
         pool_close(&scratch);
     }

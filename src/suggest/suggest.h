@@ -274,9 +274,9 @@ int joint_chi2(struct pool *pool, const struct rival *b, const struct test *test
 int margin_distances(struct pool *pool, const struct rivals *rivals, const struct test *test, int truth, double *distance,
                      int *feasible);
 
-/* All of it over `draws` of noise: fills chance, wrong and margins of *out (the lead expected is that of the formulas, the
+/* All of it over draws of noise: fills chance, wrong and margins of *out (the lead expected is that of the formulas, the
  * chances are those of the draws), over the truths by their shares. *feasible likewise. */
-int margin_judge(struct pool *pool, const struct rivals *rivals, const struct test *test, int draws, unsigned long seed,
+int margin_judge(struct pool *pool, const struct rivals *rivals, const struct test *test, unsigned long seed,
                  rotid_suggested_test *out, int *feasible);
 
 #endif
