@@ -275,8 +275,7 @@ static int is_changed_rotor(struct pool *pool, const struct job *job, const stru
     expected.rotor.effect = like->rotor.effect;          /* whatever the sensors */
     for (int p = 0; p < job->unknowns.nparameter; p++) { /* an unknown of the state alone has its value as a start */
         const struct parameter *parameter = &job->unknowns.parameter[p];
-        if (strchr(job->unknowns.bounds[p].name, ':') &&
-            (parameter->kind == PARAMETER_SPRING_K || parameter->kind == PARAMETER_SPRING_K_ROT) &&
+        if (strchr(job->unknowns.bounds[p].name, ':') && parameter_is_of_spring(parameter) &&
             (test->kind == TEST_STIFF || test->kind == TEST_FREE || parameter->index == moved || parameter->index == last))
             *parameter_value(&own, *parameter) = job->unknowns.bounds[p].start;
     }

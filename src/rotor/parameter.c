@@ -161,6 +161,11 @@ const char *parameter_next_name(const char *names, char name[PARAMETER_NAME])
     return end ? end + 1 + strspn(end + 1, " ") : NULL;
 }
 
+int parameter_is_of_spring(const struct parameter *parameter)
+{
+    return parameter->kind == PARAMETER_SPRING_K || parameter->kind == PARAMETER_SPRING_K_ROT;
+}
+
 int parameter_is_of_group(const struct parameter *parameter, int group)
 {
     int is = parameter->kind <= PARAMETER_RHO && parameter->index == group;

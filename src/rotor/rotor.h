@@ -286,6 +286,8 @@ struct parameter {
 #define PARAMETER_NAME 1100 /* as long as a line of a deck */
 const char *parameter_next_name(const char *names, char name[PARAMETER_NAME]);
 
+int parameter_is_of_spring(const struct parameter *parameter);
+
 /* Whether it is a value of the material of this group. */
 int parameter_is_of_group(const struct parameter *parameter, int group);
 

@@ -89,9 +89,8 @@ static int is_gone(const struct machine *machine, const struct rotor *rotor, int
 
 int machine_has(const struct machine *machine, const struct rotor *rotor, struct parameter parameter)
 {
-    int spring = parameter.kind == PARAMETER_SPRING_K || parameter.kind == PARAMETER_SPRING_K_ROT,
+    int spring = parameter_is_of_spring(&parameter), cause = parameter.kind == PARAMETER_EFFECT,
         disk = parameter.kind == PARAMETER_DISK_MASS || parameter.kind == PARAMETER_DISK_INERTIA;
-    int cause = parameter.kind == PARAMETER_EFFECT;
     return !(spring && machine->without_spring[parameter.index]) && !(disk && machine->without_disk[parameter.index]) &&
            !(cause && is_gone(machine, rotor, parameter.index));
 }

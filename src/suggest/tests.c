@@ -47,11 +47,6 @@ static int add_mass(struct pool *pool, const struct test *t, struct rotor *rotor
     return ROTID_OK;
 }
 
-static int is_stiffness(const struct parameter *p)
-{
-    return p->kind == PARAMETER_SPRING_K || p->kind == PARAMETER_SPRING_K_ROT;
-}
-
 static int change_springs(struct pool *pool, const struct test *t, struct job *to, double *x, int *own)
 {
     struct rotor *rotor = &to->rotor;
@@ -67,7 +62,7 @@ static int change_springs(struct pool *pool, const struct test *t, struct job *t
         spring[t->spring].position = t->z;
     for (int p = 0; p < to->unknowns.nparameter; p++) {
         const struct parameter *parameter = &to->unknowns.parameter[p];
-        if (!is_stiffness(parameter) || (t->kind == TEST_MOVED && parameter->index != t->spring))
+        if (!parameter_is_of_spring(parameter) || (t->kind == TEST_MOVED && parameter->index != t->spring))
             continue;
         own[p] = 1;
         x[p] *= factor;
