@@ -82,7 +82,7 @@ void bench_matrices(struct beam *beam, const double *x, rotid_matrix *k, rotid_m
 {
     *k = bench_zero(beam);
     *m = bench_zero(beam);
-    beam_assemble(beam, x, k, m);
+    (beam->type == MODE_BENDING ? beam_assemble : bar_assemble)(beam, x, k, m);
 }
 
 double bench_largest(const rotid_matrix *a, const rotid_matrix *b)
@@ -125,7 +125,7 @@ double bench_derivative_error(struct beam *beam, int p, double step, int side)
     bench_matrices(beam, x, &value[0], &value[1]);
     exact[0] = bench_zero(beam);
     exact[1] = bench_zero(beam);
-    beam_differentiate(beam, p, &exact[0], &exact[1]);
+    (beam->type == MODE_BENDING ? beam_differentiate : bar_differentiate)(beam, p, &exact[0], &exact[1]);
     for (int a = 0; a < 2; a++) {
         double size = bench_largest(&exact[a], NULL), whole = bench_largest(&value[a], NULL) / (start != 0 ? fabs(start) : 1);
         if (size > 1e-11 * whole)

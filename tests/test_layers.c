@@ -107,17 +107,29 @@ static double layered_shear(int count, const struct section *section, const stru
     return shear;
 }
 
-/* what contraction adds to EI, likewise */
-static double contraction_of(int count, const struct section *section, const struct material *material, int which,
-                             enum parameter_kind kind, double *derivative)
+/* what contraction adds to EI or ES, likewise */
+static double contraction_of(enum mode_type type, int count, const struct section *section, const struct material *material,
+                             int which, enum parameter_kind kind, double *derivative)
 {
     struct shear_layer layer[5];
     for (int i = 0; i < count; i++)
         layer[i] = (struct shear_layer){.material = shear_material_of(&material[i]), .section = &section[i]};
-    double sum = contraction_stiffness(count, layer);
+    double sum = contraction_stiffness(type, count, layer);
     struct shear_material v = shear_material_derivative(&material[which], kind);
     *derivative = shear_material_product(&layer[which].contraction, &v);
     return sum;
+}
+
+static double bending_of(int count, const struct section *section, const struct material *material, int which,
+                         enum parameter_kind kind, double *derivative)
+{
+    return contraction_of(MODE_BENDING, count, section, material, which, kind, derivative);
+}
+
+static double tension_of(int count, const struct section *section, const struct material *material, int which,
+                         enum parameter_kind kind, double *derivative)
+{
+    return contraction_of(MODE_AXIAL, count, section, material, which, kind, derivative);
 }
 
 POOL_TEST(derivatives_of_the_shear_of_any_materials_are_right)
@@ -142,8 +154,8 @@ POOL_TEST(derivatives_of_the_shear_of_any_materials_are_right)
                 if (p == 1 && m[i].isotropic)
                     continue;
                 static double (*const of[])(int, const struct section *, const struct material *, int, enum parameter_kind,
-                                            double *) = {layered_shear, contraction_of};
-                for (int f = 0; f < 2; f++) {
+                                            double *) = {layered_shear, bending_of, tension_of};
+                for (int f = 0; f < 3; f++) {
                     double here = of[f](count, section + first, m + first, i - first, kind, &by);
                     for (int k = 0; k < 2; k++) {
                         double step = 1e-3 * (k + 1);
@@ -266,23 +278,56 @@ static double bending_by_elements(int count, const double *radius, const struct 
     return pi * energy;
 }
 
-POOL_TEST(bending_of_layers_is_that_of_their_plane_strains)
+/* ES likewise, of the motion U for the axial strain 1: 2 pi times the energy of U' and U/r. */
+static double tension_by_elements(int count, const double *radius, const struct material *material, int n)
+{
+    static double diagonal[6002], off[6002], right[6002];
+    double energy = 0;
+    memset(diagonal, 0, sizeof diagonal);
+    memset(off, 0, sizeof off);
+    memset(right, 0, sizeof right);
+    for (int e = 0; e < count * n; e++) {
+        struct elasticity c = elasticity_of(&material[e / n], &(struct elasticity_factors){1, 1, 1});
+        double h = (radius[e / n + 1] - radius[e / n]) / n, from = radius[e / n] + e % n * h;
+        for (int q = -1; q <= 1; q += 2) {
+            double t = 0.5 + q / sqrt(12), r = from + h * t, w = r * h / 2;
+            const double rr[2] = {-1 / h, 1 / h}, tt[2] = {(1 - t) / r, t / r};
+            energy += w * c.c33;
+            off[e] += w * (c.c11 * (rr[0] * rr[1] + tt[0] * tt[1]) + c.c12 * (rr[0] * tt[1] + rr[1] * tt[0]));
+            for (int i = 0; i < 2; i++) {
+                right[e + i] -= w * c.c13 * (rr[i] + tt[i]);
+                diagonal[e + i] += w * (c.c11 * (rr[i] * rr[i] + tt[i] * tt[i]) + 2 * c.c12 * rr[i] * tt[i]);
+            }
+        }
+    }
+    for (int i = 0; i <= count * n; i++) { /* L D L' */
+        energy -= right[i] * right[i] / diagonal[i];
+        diagonal[i + 1] -= off[i] * off[i] / diagonal[i];
+        right[i + 1] -= off[i] * right[i] / diagonal[i];
+    }
+    return 2 * pi * energy;
+}
+
+POOL_TEST(bending_and_tension_of_layers_are_those_of_their_plane_strains)
 {
     const struct material material[3] = {
         {.e = 2.1e11, .nu = 0.3, .isotropic = 1}, stack(2e10, 0.5e10, 0.29), {.e = 1.2e11, .g = 3e10, .nu = 0.36}};
     const double radius[] = {0.1, 0.4, 0.7, 0.8};
     for (int count = 2; count <= 3; count++) {
         struct section section[3];
-        double sum = 0, unused;
+        double sum[2] = {0, 0}, unused;
         for (int i = 0; i < count; i++) {
             section_round(2 * radius[i + 1], 2 * radius[i], 2 * radius[i + 1], &section[i]);
-            sum += material[i].e * section[i].stiff_inertia;
+            sum[0] += material[i].e * section[i].stiff_inertia;
+            sum[1] += material[i].e * section[i].stiff_area;
         }
-        double coarse = bending_by_elements(count, radius, material, 1000),
-               fine = bending_by_elements(count, radius, material, 2000);
-        double more = contraction_of(count, section, material, 0, PARAMETER_E, &unused);
-        assert_close(sum + more, fine + (fine - coarse) / 3, 1e-9, 0);
-        assert_true(more > 0.01 * sum);
+        for (int axial = 0; axial < 2; axial++) {
+            double (*by)(int, const double *, const struct material *, int) = axial ? tension_by_elements : bending_by_elements;
+            double coarse = by(count, radius, material, 1000), fine = by(count, radius, material, 2000);
+            double more = contraction_of(axial ? MODE_AXIAL : MODE_BENDING, count, section, material, 0, PARAMETER_E, &unused);
+            assert_close(sum[axial] + more, fine + (fine - coarse) / 3, 1e-9, 0);
+            assert_true(more > 0.01 * sum[axial]);
+        }
     }
 }
 
@@ -302,7 +347,7 @@ POOL_TEST(a_cut_in_one_material_changes_nothing)
             section_round(1, diameter[from], 1, &whole);
             assert_close(layered_shear(4 - from, section + from, m, 0, PARAMETER_E, &unused),
                          shear_stiffness_plain(&whole, &materials[i]), 1e-11, 0); /* rounding over the wall */
-            assert_close(contraction_of(4 - from, section + from, m, 0, PARAMETER_E, &unused), 0, 0,
+            assert_close(bending_of(4 - from, section + from, m, 0, PARAMETER_E, &unused), 0, 0,
                          1e-20 * materials[i].e * whole.stiff_inertia);
         }
 }
@@ -503,8 +548,9 @@ POOL_TEST(a_layer_that_slips_carries_by_shear_lag)
 
 POOL_TEST(derivatives_by_what_is_of_a_layer_agree_with_differences)
 {
-    for (size_t i = 0; i < sizeof subjects / sizeof *subjects; i++) {
-        const struct subject *s = &subjects[i];
+    for (size_t i = 0; i < 3 * (sizeof subjects / sizeof *subjects); i++) {
+        const struct subject *s = &subjects[i / 3];
+        const enum mode_type type[3] = {MODE_BENDING, MODE_TORSION, MODE_AXIAL};
         struct rotor *rotor = layered();
         struct parameter parameter[NAMES + EFFECT_MOST_PARAMETERS];
         struct beam beam;
@@ -517,6 +563,8 @@ POOL_TEST(derivatives_by_what_is_of_a_layer_agree_with_differences)
         for (int p = 0; s->cause && p < effect_parameters(&rotor->effect[0]); p++)
             parameter[n++] = (struct parameter){PARAMETER_EFFECT, 0, p, 0, NULL};
         bench_build(rotor, n, parameter, &beam);
+        if (type[i % 3] != MODE_BENDING)
+            assert_status(bar_open(&test_pool, type[i % 3], &beam), ROTID_OK);
         for (int p = 0; p < n; p++) {
             double error = bench_derivative_error(&beam, p, p < NAMES ? 1e-3 : 2e-4, 0); /* crosses no end of a cone */
             if (error > 1e-6)

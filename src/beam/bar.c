@@ -46,6 +46,12 @@ static double fibres(const struct beam *beam, int e)
     return polar / area;
 }
 
+/* What bonded parts add to the sum of their ES; its derivatives stand in beam->layer then. 0 in torsion */
+static double contraction(const struct beam *beam, int e)
+{
+    return beam->type == MODE_AXIAL ? contraction_stiffness(MODE_AXIAL, factors_layers(beam, e), beam->layer) : 0;
+}
+
 static struct bar axis_bar(const struct beam *beam, int e)
 {
     const struct rotor *rotor = &beam->rotor;
@@ -53,7 +59,8 @@ static struct bar axis_bar(const struct beam *beam, int e)
     struct effect_field *factor;
     int count = factors_parts(beam, e, &part, &factor), group = rotor->segment[beam->mesh.segment[e]].group;
     double pull = fibres(beam, e);
-    struct bar bar = {.stiffness = pull != 0 ? pull * rotor_axial_force(rotor, group, middle_of(&beam->mesh, e)) : 0};
+    struct bar bar = {.stiffness =
+                          pull != 0 ? pull * rotor_axial_force(rotor, group, middle_of(&beam->mesh, e)) : contraction(beam, e)};
     for (int i = 0; i < count; i++) {
         struct material material = rotor->group[part[i].group].material;
         material.g = material_shear_modulus(&material);
@@ -62,31 +69,38 @@ static struct bar axis_bar(const struct beam *beam, int e)
     return bar;
 }
 
-/* The stiffness is of degree 1 in its modulus, the mass in rho: the derivative of a sum is the sum with the derivatives of these
- * in their place. */
+/* The stiffness of the parts is of degree 1 in its modulus, the mass in rho: the derivative of a sum is the sum with the
+ * derivatives of these in their place. */
 static struct bar axis_direction_of(const struct beam *beam, struct parameter parameter, int e)
 {
     const struct section_part *part;
     struct effect_field *factor;
     struct bar d = {0, 0, 0};
     int count = factors_parts(beam, e, &part, &factor);
+    (void)contraction(beam, e);
     for (int i = 0; i < count; i++) {
-        struct material material = beam->rotor.group[part[i].group].material;
+        const struct material *own = &beam->rotor.group[part[i].group].material;
+        struct material material = *own;
         struct effect_field f = factor ? factor[i] : (struct effect_field){1, 1, 1}, rate;
+        struct shear_material v;
         if (parameter.kind == PARAMETER_EFFECT) {
             struct effect_span span = factors_span(beam, e, &part[i]);
             if (!effects_axis_rate(&beam->rotor, parameter, &span, 0, &rate))
                 continue;
             f = (struct effect_field){f.e * rate.e, f.g * rate.g, f.rho * rate.rho};
             material.g = material_shear_modulus(&material);
+            v = shear_material_rate(own, f.e, f.g);
         } else if (parameter.kind <= PARAMETER_RHO && parameter_is_of_group(&parameter, part[i].group)) {
-            material.g = shear_material_derivative(&material, parameter.kind).g;
+            v = shear_material_derivative(own, parameter.kind);
+            material.g = v.g;
+            shear_material_scale(own, f.e, f.g, &v);
             material.e = parameter.kind == PARAMETER_E;
             material.rho = parameter.kind == PARAMETER_RHO;
         } else {
             continue;
         }
         add_part(beam, &material, &part[i].section, &f, &d);
+        d.stiffness += beam->type == MODE_AXIAL ? shear_material_product(&beam->layer[i].contraction, &v) : 0;
     }
     double pull = fibres(beam, e);
     if (pull != 0)

@@ -100,8 +100,9 @@ struct shear_layer {
  * part may have any section, several are round. At fixed x, kGS is of degree 1 in all G together and of degree 0 in all E. */
 double shear_stiffness(int count, struct shear_layer *layer);
 
-/* What bonded parts of different contraction add to the sum of their EI [N.m2]: 0 of one part, and of parts of one nu_a. */
-double contraction_stiffness(int count, struct shear_layer *layer);
+/* What bonded parts of different contraction add to the sum of their EI [N.m2], MODE_AXIAL: of their ES [N]. 0 of one part, and
+ * of parts of one nu_a. */
+double contraction_stiffness(enum mode_type type, int count, struct shear_layer *layer);
 
 /* The same of one section of one material, without derivatives. */
 double shear_stiffness_plain(const struct section *section, const struct material *material);
@@ -240,6 +241,9 @@ void factors_refresh(struct beam *beam);
 
 /* The parts of the section of element e, how many there are, and the factors of each, NULL without effects. */
 int factors_parts(const struct beam *beam, int e, const struct section_part **part, struct effect_field **factor);
+
+/* beam->layer := the parts of element e with their factors; how many. */
+int factors_layers(const struct beam *beam, int e);
 
 /* A part of element e as the hooks of effects see it. */
 struct effect_span factors_span(const struct beam *beam, int e, const struct section_part *part);

@@ -49,6 +49,21 @@ int factors_parts(const struct beam *beam, int e, const struct section_part **pa
     return beam->first_part[segment + 1] - first;
 }
 
+int factors_layers(const struct beam *beam, int e)
+{
+    const struct section_part *part;
+    struct effect_field *factor;
+    int count = factors_parts(beam, e, &part, &factor);
+    for (int i = 0; i < count; i++) {
+        const struct material *material = &beam->rotor.group[part[i].group].material;
+        struct shear_layer *layer = &beam->layer[i];
+        *layer = (struct shear_layer){.material = shear_material_of(material), .section = &part[i].section};
+        if (factor)
+            shear_material_scale(material, factor[i].e, factor[i].g, &layer->material);
+    }
+    return count;
+}
+
 void factors_refresh(struct beam *beam)
 {
     for (int e = 0; e < beam->mesh.nelement && beam->factor; e++) {

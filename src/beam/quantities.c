@@ -17,17 +17,8 @@ static void add_part(const struct material *material, const struct section *sect
 /* kGS of element e, and what contraction adds to EI; the derivatives of both stand in beam->layer then */
 static double axis_shear(const struct beam *beam, int e, double *contraction)
 {
-    const struct section_part *part;
-    struct effect_field *factor;
-    int count = factors_parts(beam, e, &part, &factor);
-    for (int i = 0; i < count; i++) {
-        const struct material *material = &beam->rotor.group[part[i].group].material;
-        struct shear_layer *layer = &beam->layer[i];
-        *layer = (struct shear_layer){.material = shear_material_of(material), .section = &part[i].section};
-        if (factor)
-            shear_material_scale(material, factor[i].e, factor[i].g, &layer->material);
-    }
-    *contraction = contraction_stiffness(count, beam->layer);
+    int count = factors_layers(beam, e);
+    *contraction = contraction_stiffness(MODE_BENDING, count, beam->layer);
     return shear_stiffness(count, beam->layer);
 }
 

@@ -195,9 +195,16 @@ double shear_stiffness(int count, struct shear_layer *layer)
  * np/ep + na^2/e, U + V at the outer and inner surface of a part is
  *   (S_q (c q^4 + (a + b) p^4) - 4 a p^2 q^2 S_p)/d - na q^2,  (4 a p^2 q^2 S_q - S_p (c p^4 + (a + b) q^4))/d - na p^2,
  * c = 3 a - b, d = q^4 - p^4, the rest being a translation. U + V is continuous, F S = h, and the axial stress na (sigma_rr +
- * sigma_tt) adds the moment pi h'S. Its derivative is pi (2 S'dh - S'dF S). */
-double contraction_stiffness(int count, struct shear_layer *layer)
+ * sigma_tt) adds the moment pi h'S. Its derivative is pi (2 S'dh - S'dF S).
+ *
+ * In tension by the strain 1 each part alone contracts by U = -na r, the stresses are sigma_rr = A + B/r^2, sigma_tt = A - B/r^2,
+ * S at the surfaces, and U/r there is
+ *   (S_q ((a - b) q^2 + (a + b) p^2) - 2 a p^2 S_p)/d - na,  (2 a q^2 S_q - S_p ((a - b) p^2 + (a + b) q^2))/d - na,
+ * d = q^2 - p^2. Its continuity times r^2 is F S = h with the same h, and the force added is 2 pi h'S. */
+double contraction_stiffness(enum mode_type type, int count, struct shear_layer *layer)
 {
+    const int axial = type == MODE_AXIAL;
+    const double n = axial ? 1 : 3, scale = axial ? 2 * PI : PI;
     double sum = 0;
     layer[0].contraction = (struct shear_material){0};
     if (count == 1) /* of any section */
@@ -208,38 +215,38 @@ double contraction_stiffness(int count, struct shear_layer *layer)
         const struct shear_material *m = &layer[i].material;
         struct annulus t = annulus_of(&layer[i]);
         double a = (1 / m->ep - m->na * m->na / m->e) / t.by_g, b = (m->np / m->ep + m->na * m->na / m->e) / t.by_g;
-        double d = t.depth * (t.qq + t.pp), c = 3 * a - b;
+        double d = axial ? t.depth : t.depth * (t.qq + t.pp), c = n * a - b, mixed = t.pp * t.qq;
         int resists = m->e > 0 && m->ep > 0;
         if (i > 0) {
-            layer[i].pivot += resists ? (c * t.pp * t.pp + (a + b) * t.qq * t.qq) / d : INFINITY;
+            layer[i].pivot += resists ? (c * t.pp * t.pp + (a + b) * (axial ? mixed : t.qq * t.qq)) / d : INFINITY;
             layer[i].w -= m->na * t.pp;
         }
         if (i + 1 < count) {
-            layer[i + 1].pivot += resists ? (c * t.qq * t.qq + (a + b) * t.pp * t.pp) / d : INFINITY;
+            layer[i + 1].pivot += resists ? (c * t.qq * t.qq + (a + b) * (axial ? mixed : t.pp * t.pp)) / d : INFINITY;
             layer[i + 1].w += m->na * t.qq;
-            layer[i].off = i > 0 && resists ? 4 * a * t.pp * t.qq / d : 0;
+            layer[i].off = i > 0 && resists ? (n + 1) * a * mixed / d : 0;
         }
     }
     solve_surfaces(count, layer);
     for (int i = 0; i < count; i++) {
         const struct shear_material *m = &layer[i].material;
         struct annulus t = annulus_of(&layer[i]);
-        double p = layer[i].w, q = layer[i + 1].w, d = t.depth * (t.qq + t.pp), direct = q * t.qq - p * t.pp;
-        double by_b = q * q - p * p, by_a = -(q * q * (3 * t.qq * t.qq + t.pp * t.pp) + p * p * (3 * t.pp * t.pp + t.qq * t.qq) -
-                                              8 * p * q * t.pp * t.qq) /
-                                            d;
+        double p = layer[i].w, q = layer[i + 1].w, d = axial ? t.depth : t.depth * (t.qq + t.pp), direct = q * t.qq - p * t.pp;
+        double p4 = t.pp * t.pp, q4 = t.qq * t.qq, mixed = t.pp * t.qq, of_p = axial ? mixed : q4, of_q = axial ? mixed : p4;
+        double by_b = axial ? q * q * t.qq - p * p * t.pp : q * q - p * p;
+        double by_a = -(q * q * (n * q4 + of_q) + p * p * (n * p4 + of_p) - 2 * (n + 1) * p * q * mixed) / d;
         layer[i].contraction = (struct shear_material){0};
         if (!(m->e > 0 && m->ep > 0))
             continue;
         sum += m->na * direct;
         layer[i].contraction = (struct shear_material){
-            .e = PI * (by_a - by_b) * m->na * m->na / (m->e * m->e * t.by_g),
-            .ep = -PI * (by_a + m->np * by_b) / (m->ep * m->ep * t.by_g),
-            .np = PI * by_b / (m->ep * t.by_g),
-            .na = PI * 2 * (direct - (by_a - by_b) * m->na / (m->e * t.by_g)),
+            .e = scale * (by_a - by_b) * m->na * m->na / (m->e * m->e * t.by_g),
+            .ep = -scale * (by_a + m->np * by_b) / (m->ep * m->ep * t.by_g),
+            .np = scale * by_b / (m->ep * t.by_g),
+            .na = scale * 2 * (direct - (by_a - by_b) * m->na / (m->e * t.by_g)),
         };
     }
-    return PI * sum;
+    return scale * sum;
 }
 
 double shear_stiffness_plain(const struct section *section, const struct material *material)
