@@ -376,7 +376,7 @@ static void read_correction(struct cause_card *c)
     struct job *job = c->reader->job;
     int given[3] = {0}, count = 0;
     struct effect_parameter_name known[3];
-    double value[3];
+    double value[3] = {0};
     for (const struct effect_parameter_name *name; (name = correction_parameter(c->kind, count)); count++)
         known[count] = *name;
     c->correction.name = c->name;

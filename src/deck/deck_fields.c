@@ -81,7 +81,7 @@ int deck_number(struct deck_reader *reader, const struct data_line *line, int i,
 
 static int parse_whole(struct deck_reader *reader, const struct field *field, const char *what, int least, int most, int *value)
 {
-    double number;
+    double number = 0;
     if (parse_number(reader, field, what, ANY, &number))
         return 1;
     if (number != floor(number) || number < least || number > most)

@@ -19,8 +19,9 @@ struct reader {
     int depth;
     const char *open_file[DECK_MOST_INCLUDES + 1];
     struct stat open_stat[DECK_MOST_INCLUDES + 1];
-    int continues;         /* a keyword line ended in a comma */
-    const char *line_text; /* at hand */
+    int continues;                     /* a keyword line ended in a comma */
+    char buffer[DECK_LINE_LENGTH + 1]; /* the line at hand */
+    const char *line_text;             /* its first character */
     int line;
 };
 
@@ -261,14 +262,15 @@ static void read_data(struct reader *reader, const char *begin, const char *end)
     (void)POOL_ADD(reader->pool, card->line, card->nline, &data);
 }
 
-/* A line of the text, overwritten behind it. Returns 1 where the file is not text, which ends the reading. */
-static int read_line(struct reader *reader, char *whole, size_t length)
+/* The line in the buffer, of `length` characters; an *INCLUDE in it overwrites the buffer. Returns 1 where the file is not text,
+ * which ends the reading. */
+static int read_line(struct reader *reader, size_t length)
 {
     struct deck_text *text = reader->text;
-    const char *begin = whole, *end = whole + length;
+    const char *begin = reader->buffer, *end = begin + length;
     int is_first = reader->line == 1;
-    reader->line_text = whole;
-    whole[length] = 0;
+    reader->line_text = begin;
+    reader->buffer[length] = 0;
     for (const char *c = begin; c < end; c++)
         if ((unsigned char)*c < ' ' && *c != '\t') {
             text_error(reader, at(reader, c), "byte 0x%02x is not text, expected a deck of cards that begin with *",
@@ -318,7 +320,6 @@ static void read_lines(struct reader *reader, const char *path, const char *text
     for (; text < stop && is_text && !reader->over && !reader->pool->out_of_memory; line++) {
         const char *feed = memchr(text, '\n', (size_t)(stop - text)), *end = feed ? feed : stop;
         size_t count = (size_t)(end - text);
-        char line_text[DECK_LINE_LENGTH + 1];
         count -= count && end[-1] == '\r';
         reader->line = line; /* included files have lines of their own */
         if (count > DECK_LINE_LENGTH) {
@@ -326,8 +327,8 @@ static void read_lines(struct reader *reader, const char *path, const char *text
                        "the line is longer than %d characters, expected a shorter one", DECK_LINE_LENGTH);
             is_text = !memchr(text, 0, DECK_LINE_LENGTH + 1);
         } else {
-            memcpy(line_text, text, count);
-            is_text = !read_line(reader, line_text, count);
+            memcpy(reader->buffer, text, count);
+            is_text = !read_line(reader, count);
         }
         reader->text->end = (struct place){path, line, (int)count + 1};
         text = feed ? feed + 1 : stop;

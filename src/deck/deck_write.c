@@ -88,8 +88,7 @@ static void prepare_state(struct writing *w, int s)
         x[p] = bounds[p].start = start_of(&bounds[p], start);
     }
     parameters_set(&rotor, n, job->unknowns.parameter, x);
-    for (int i = 0; i < rotor.neffect; i++) {
-        struct effect *effect = &rotor.effect[i];
+    for (struct effect *effect = rotor.effect; effect && effect < rotor.effect + rotor.neffect; effect++) {
         const struct cause_kind *kind = catalogue_of(effect);
         for (int p = 0; p < effect_parameters(effect) && kind && is_new(given, effect); p++)
             if (effect->value[p] != kind->parameter[p].neutral)
@@ -632,7 +631,7 @@ static int compose(struct writing *w, char **text)
     add_heading(w);
     deck_edit_text(&w->edit, &out);
     *text = finish(w->pool, origin->file[origin->nfile - 1].text, out.text);
-    return w->pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
+    return !*text || w->pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
 int deck_read_back(struct pool *pool, const char *path, const char *text, const char *directory, struct message_list *notes,

@@ -280,7 +280,7 @@ static int read_text(struct analyser *a, struct pool *scratch, char **text)
         message_add(a->messages, SEVERITY_ERROR, a->path, 1, 1, "cannot be read");
     else if (*text && strlen(*text) < length)
         return wrong(a, 1, 1, "the file has zero bytes%s, expected text", "");
-    return failed ? ROTID_ERROR_IO : *text ? ROTID_OK : ROTID_ERROR_MEMORY;
+    return failed ? ROTID_ERROR_IO : ROTID_OK;
 }
 
 /* Only functions over the reference that was asked for. */
@@ -311,6 +311,8 @@ int analyser_read(struct pool *pool, const char *path, const struct measurement_
     pool_open(&scratch, pool->allocator);
     int status = read_text(&a, &scratch, &text);
     char *row = text;
+    if (!status && !text)
+        status = ROTID_ERROR_MEMORY;
     if (!status && !strncmp(row, "\xef\xbb\xbf", 3))
         row += 3;
     for (const char *c = row; !status && *c; c++)

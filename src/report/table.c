@@ -90,7 +90,7 @@ static struct table_column *next_column(struct table *table, const char *name, c
         return NULL;
     if (table->ncolumns && !strcmp(name, table->column[0].name))
         table->is_made = 1;
-    if (table->is_made)
+    if (table->is_made && table->ncolumns)
         return &table->column[table->ncells % table->ncolumns];
     struct table_column column = {name, unit, unit, show, 1};
     if (unit && (!strcmp(unit, "m") || !strcmp(unit, "Hz")))

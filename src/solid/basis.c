@@ -47,9 +47,9 @@ static int classify(struct pool *pool, struct solid_basis *basis)
         for (int s = 0; s < SHARES; s++) {
             int c = 0, moves = 0;
             for (size_t p = 0; p < probes; p++) {
-                static const struct share none = {.rho = 0};
                 probe[p] = now[p * SHARES + (size_t)s];
-                moves |= p && memcmp(&probe[p], &none, sizeof none);
+                for (int i = 0; i < NUMBERS && p; i++)
+                    moves |= ((const double *)&probe[p])[i] != 0;
             }
             while (c < basis->nclass && memcmp(known + (size_t)c * probes, probe, probes * sizeof *probe) != 0)
                 c++;
@@ -66,7 +66,7 @@ static int classify(struct pool *pool, struct solid_basis *basis)
 /* The parts of the classes of an element: of the numbers of one that moves, else of K and M as they are. */
 static void add_to_classes(struct solid_basis *basis, int e)
 {
-    const int *of = &basis->class_of[e * SHARES];
+    const int *of = &basis->class_of[(ptrdiff_t)e * SHARES];
     ptrdiff_t square = (ptrdiff_t)basis->count * basis->count;
     for (int c = 0; c < basis->nclass; c++) {
         const struct solid_class *class = &basis->class[c];
@@ -83,7 +83,7 @@ static void add_to_classes(struct solid_basis *basis, int e)
                     any = 1;
                 }
             if (any && class->moves)
-                add_element(basis, e, field, class->part + i * square, class->part + i * square);
+                add_element(basis, e, field, class->part + (ptrdiff_t)i * square, class->part + (ptrdiff_t)i * square);
             else if (any)
                 add_element(basis, e, field, class->part, class->part + square);
         }
@@ -96,7 +96,7 @@ int solid_basis_new(struct pool *pool, struct solid *solid, int count, const dou
     *basis = (struct solid_basis){.solid = solid, .count = count, .v = v};
     basis->class = POOL_ARRAY(pool, struct solid_class, CLASS_MOST);
     basis->class_of = POOL_ARRAY(pool, int, (size_t)solid->mesh.nelement *SHARES);
-    basis->work = POOL_ARRAY(pool, double, 2 * SOLID_DOFS * (size_t)count);
+    basis->work = POOL_ARRAY(pool, double, (size_t)(2 * SOLID_DOFS) * (size_t)count);
     basis->sum = POOL_ARRAY(pool, double, 2 * square);
     if (!basis->class || !basis->class_of || !basis->work || !basis->sum)
         return ROTID_ERROR_MEMORY;

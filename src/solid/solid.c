@@ -113,7 +113,7 @@ void solid_add_mass(const struct integrals *integrals, int share, double rho, do
 static void integrals_share_span(double left, double right, int share, double *from, double *to)
 {
     double before = 0;
-    for (int i = 0; i < share; i++)
+    for (int i = 0; i < SHARES && i < share; i++)
         before += weight[i] / 2;
     *from = left + before * (right - left);
     *to = left + (before + weight[share] / 2) * (right - left);
