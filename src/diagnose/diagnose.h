@@ -767,6 +767,11 @@ int pairing_note(struct engine *engine, const int *number);
 /* The data `measured`, modes that were left out among them, take the place of those that are judged, with the pairing `number`,
  * and what was found about pairing is that. Nothing where it is the pairing there is. ROTID_OK or ROTID_ERROR_MEMORY. */
 int pairing_adopt(struct engine *engine, const struct job_measurement *measured, int *number);
+/* The modes of the job paired with those of its model at x, its effects as they stand. Statuses of the spectrum. */
+int pairing_at(struct engine *engine, const struct job *job, const double *x, struct comparison *compared);
+/* The base may have paired a mode wrongly that the likeliest explanation pairs otherwise: its pairs are adopted where they lower
+ * its own chi2, and the search has to be repeated, *changed. Statuses of memory and cancellation only. */
+int pairing_beside(struct engine *engine, const struct posterior *posterior, int *changed);
 /* The findings about pairing again, the data and the base being others. */
 int pairing_note_again(struct engine *engine);
 /* Behind a search: shapes of two neighbours under each other's number; without shapes shifts and gaps of the numbers. Where the

@@ -12,7 +12,6 @@
 #define PLACES    16   /* along the rotor */
 #define SIZES     12   /* at most, of each candidate */
 #define MOST_FITS 6    /* of the trials that come nearest */
-#define ROUNDS    4    /* of a fit with its pairs */
 #define OFF_HZ    0.02 /* of a frequency, and */
 #define OFF_SHAPE 0.05 /* of 1 - MAC: what the parameters of the deck still put right */
 #define STEPS     6    /* of the way from no effect to a bound; and with a place */
@@ -125,68 +124,37 @@ static int try_candidate(void *context, int index, int worker)
     return status;
 }
 
-/* The modes of the job paired with those of its model at x, its effects as they stand. */
-static int pair_at(struct engine *engine, const struct job *job, const double *x, struct comparison *compared)
-{
-    struct job own = *job;
-    struct spectrum spectrum;
-    struct message_list quiet;
-    message_open(&quiet, engine->pool);
-    own.unknowns.nparameter = engine->job->unknowns.nparameter;
-    int status = spectrum_compute_parts(engine->pool, own.models, &own.rotor, own.unknowns.nparameter, own.unknowns.parameter, x,
-                                        ROTID_GUYAN, comparison_candidates(&own), SPECTRUM_REDUCED, &spectrum);
-    return status ? status : comparison_make(engine->pool, &own, &spectrum, &quiet, compared);
-}
-
 /* The fit from a trial with the numbers as measured, as a mode may have crossed another on the way there, and with the pairing
- * beside it, then again from there with that beside the fit, until the pairs stay; *rate of the best, INFINITY where there is
- * none. */
+ * beside the trial; *rate of the better one, INFINITY where there is none. */
 static int fit_trial(struct engine *engine, const struct scan_candidate *c, const struct trial *trial,
                      const struct job_measurement *measured, double *rate, int **number, struct effect *effect)
 {
-    struct job with, job;
+    struct job job;
     struct state state;
-    struct comparison compared = {.number = measured->number};
-    const double *x = engine->deck_start;
+    struct comparison paired, compared = {.number = measured->number};
     *rate = INFINITY;
-    int nmode = measured->nmode, status = job_with_effect(engine->pool, engine->job, x, &trial->effect, c->cause, NULL, &with);
+    int status = job_with_effect(engine->pool, engine->job, engine->deck_start, &trial->effect, c->cause, NULL, &job);
     if (status)
         return status;
-    with.measurement = *measured;
-    job = with;
-    for (int round = 0; round < ROUNDS && !status; round++) {
-        const int *before = compared.number;
+    job.measurement = *measured;
+    for (int way = 0; way < 2 && !status; way++) {
         rotid_fit_result *fit = NULL;
-        if (round == 1) { /* from the trial again */
-            job = with;
-            job.rotor.effect[job.rotor.neffect - 1] = trial->effect;
-            x = engine->deck_start;
-        }
-        if (round)
-            status = pair_at(engine, &job, x, &compared);
-        if (status || (round && !memcmp(before, compared.number, (size_t)nmode * sizeof *before)))
+        status = way ? pairing_at(engine, &job, engine->deck_start, &paired) : ROTID_OK;
+        if (status || (way && !memcmp(paired.number, compared.number, (size_t)measured->nmode * sizeof *paired.number)))
             break;
-        status = refit_job(engine->pool, &job, compared.number, measured->holdout, engine->environment, &fit);
-        if (status)
-            continue;
-        const struct states states = states_of(&job, &state);
-        struct effect now;
-        effect_at(states.state, job.rotor.neffect - 1, fit->x, &now);
-        job.rotor.effect[job.rotor.neffect - 1] = now;
-        if (fit->dof > 0 && fit->chi2 / fit->dof < *rate) {
+        compared = way ? paired : compared;
+        int failed = refit_job(engine->pool, &job, compared.number, measured->holdout, engine->environment, &fit);
+        if (failed == ROTID_ERROR_MEMORY || failed == ROTID_STOP_CANCELLED)
+            return failed;
+        if (!failed && fit->dof > 0 && fit->chi2 / fit->dof < *rate) {
+            const struct states states = states_of(&job, &state);
             *rate = fit->chi2 / fit->dof;
             *number = compared.number;
-            *effect = now;
+            effect_at(states.state, job.rotor.neffect - 1, fit->x, effect);
         }
-        status = job_started_at(engine->pool, &job, fit->x, &job);
-        double *own = POOL_ARRAY(engine->pool, double, fit->n);
-        if (!own)
-            status = ROTID_ERROR_MEMORY;
-        else
-            x = memcpy(own, fit->x, (size_t)fit->n * sizeof *own);
         rotid_fit_free(fit);
     }
-    return status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED ? status : ROTID_OK;
+    return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
 }
 
 /* Of the single causes and of none. */

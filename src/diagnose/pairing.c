@@ -84,6 +84,44 @@ int pairing_adopt(struct engine *engine, const struct job_measurement *measured,
     return pairing_note(engine, measured->number);
 }
 
+int pairing_at(struct engine *engine, const struct job *job, const double *x, struct comparison *compared)
+{
+    struct job own = *job;
+    struct spectrum spectrum;
+    struct message_list quiet;
+    message_open(&quiet, engine->pool);
+    own.unknowns.nparameter = engine->job->unknowns.nparameter;
+    int status = spectrum_compute_parts(engine->pool, own.models, &own.rotor, own.unknowns.nparameter, own.unknowns.parameter, x,
+                                        ROTID_GUYAN, comparison_candidates(&own), SPECTRUM_REDUCED, &spectrum);
+    return status ? status : comparison_make(engine->pool, &own, &spectrum, &quiet, compared);
+}
+
+int pairing_beside(struct engine *engine, const struct posterior *posterior, int *changed)
+{
+    const struct explanation *lead = NULL;
+    const struct job_measurement measured = engine->job->measurement;
+    struct comparison compared;
+    rotid_fit_result *fit = NULL;
+    *changed = 0;
+    for (int i = 0; i < posterior->count && !lead; i++)
+        if (posterior->item[i].refit && posterior->item[i].refit->fit)
+            lead = &posterior->item[i];
+    if (!lead || engine->states.nstate > 1 || !measured.shape)
+        return ROTID_OK;
+    const struct refit *refit = lead->refit;
+    int status = pairing_at(engine, &refit->states.state->job, refit->fit->x, &compared);
+    if (status)
+        return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
+    if (!memcmp(compared.number, engine->number, (size_t)measured.nmode * sizeof *compared.number))
+        return ROTID_OK;
+    status = refit_states(engine->pool, &refit->states, compared.number, engine->holdout, engine->environment, &fit);
+    *changed = !status && fit->chi2 + LEAST_MARGIN < refit->chi2;
+    rotid_fit_free(fit);
+    if (status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED)
+        return status;
+    return *changed ? pairing_adopt(engine, &measured, compared.number) : ROTID_OK;
+}
+
 /* Chi2 that a mode left out has to cost: 0.03 of the tests have one (so probable before), and its frequency, of relative
  * deviation s, could be any of the band: -2 ln(0.03 sqrt(2 pi) s/ln(f_n/f_1)). */
 static double cost_of_false_mode(const struct job_measurement *measured, int k)
