@@ -124,37 +124,29 @@ static int try_candidate(void *context, int index, int worker)
     return status;
 }
 
-/* The fit from a trial with the numbers as measured, as a mode may have crossed another on the way there, and with the pairing
- * beside the trial; *rate of the better one, INFINITY where there is none. */
+/* The fit from a trial with the pairing beside it; *rate INFINITY where there is none. */
 static int fit_trial(struct engine *engine, const struct scan_candidate *c, const struct trial *trial,
                      const struct job_measurement *measured, double *rate, int **number, struct effect *effect)
 {
     struct job job;
     struct state state;
-    struct comparison paired, compared = {.number = measured->number};
+    struct comparison paired;
+    rotid_fit_result *fit = NULL;
     *rate = INFINITY;
     int status = job_with_effect(engine->pool, engine->job, engine->deck_start, &trial->effect, c->cause, NULL, &job);
-    if (status)
-        return status;
     job.measurement = *measured;
-    for (int way = 0; way < 2 && !status; way++) {
-        rotid_fit_result *fit = NULL;
-        status = way ? pairing_at(engine, &job, engine->deck_start, &paired) : ROTID_OK;
-        if (status || (way && !memcmp(paired.number, compared.number, (size_t)measured->nmode * sizeof *paired.number)))
-            break;
-        compared = way ? paired : compared;
-        int failed = refit_job(engine->pool, &job, compared.number, measured->holdout, engine->environment, &fit);
-        if (failed == ROTID_ERROR_MEMORY || failed == ROTID_STOP_CANCELLED)
-            return failed;
-        if (!failed && fit->dof > 0 && fit->chi2 / fit->dof < *rate) {
-            const struct states states = states_of(&job, &state);
-            *rate = fit->chi2 / fit->dof;
-            *number = compared.number;
-            effect_at(states.state, job.rotor.neffect - 1, fit->x, effect);
-        }
-        rotid_fit_free(fit);
+    if (!status)
+        status = pairing_at(engine, &job, engine->deck_start, &paired);
+    if (!status)
+        status = refit_job(engine->pool, &job, paired.number, measured->holdout, engine->environment, &fit);
+    if (!status && fit->dof > 0) {
+        const struct states states = states_of(&job, &state);
+        *rate = fit->chi2 / fit->dof;
+        *number = paired.number;
+        effect_at(states.state, job.rotor.neffect - 1, fit->x, effect);
     }
-    return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
+    rotid_fit_free(fit);
+    return status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED ? status : ROTID_OK;
 }
 
 /* Of the single causes and of none. */
