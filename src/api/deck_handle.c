@@ -1,6 +1,5 @@
 /* A deck for hosts: read once, then only read from. */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "api/api.h"

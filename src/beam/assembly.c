@@ -1,6 +1,3 @@
-#include <math.h>
-#include <string.h>
-
 #include "beam/beam.h"
 #include "linalg/linalg.h"
 

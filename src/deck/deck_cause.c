@@ -1,7 +1,6 @@
 /* CAUSE: what the diagnosis found, or what a user suspects. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "deck/deck_row.h"

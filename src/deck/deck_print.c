@@ -1,6 +1,5 @@
 /* Cards as text, in the units of the deck that they are written into. */
 
-#include <ctype.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>

@@ -1,8 +1,4 @@
-
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "deck/deck_row.h"
 

@@ -1,6 +1,5 @@
 /* Units of a deck: SI, or those of *UNITS. */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "deck/deck_row.h"

@@ -10,7 +10,6 @@
 #include "running/running.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 

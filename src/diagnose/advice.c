@@ -3,7 +3,6 @@
 #include "diagnose/diagnose.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "modal/modal.h"
 #include "model/model.h"

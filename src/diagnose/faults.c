@@ -14,7 +14,6 @@
 #include "diagnose/diagnose.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/base.h"

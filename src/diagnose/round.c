@@ -2,7 +2,6 @@
 #include "diagnose/diagnose.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/base.h"
 #include "diagnose/causes/causes.h"

@@ -1,7 +1,6 @@
 #include "fit/fit.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/base.h"
 

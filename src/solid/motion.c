@@ -1,7 +1,6 @@
 #include "solid/solid.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "linalg/linalg.h"
 

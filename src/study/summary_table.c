@@ -1,6 +1,5 @@
 /* The summary and the runs of a study as tables. */
 #include <math.h>
-#include <string.h>
 
 #include "study/study.h"
 

@@ -1,7 +1,6 @@
 #include "suggest/suggest.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "run/run.h"
 

@@ -1,7 +1,5 @@
 #include "suggest/suggest.h"
 
-#include <math.h>
-
 const char *test_id(enum test_kind kind)
 {
     static const char *const id[] = {"again", "modes",         "sensors", "shapes",       "noise",
