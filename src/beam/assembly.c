@@ -1,7 +1,7 @@
 #include "beam/beam.h"
 #include "linalg/linalg.h"
 
-static void add_between(rotid_matrix *a, int first, int second, const double *e)
+void beam_add_between(rotid_matrix *a, int first, int second, const double *e)
 {
     const int dof[4] = {2 * first, 2 * first + 1, 2 * second, 2 * second + 1};
     matrix_add_element(a, 4, dof, e);
@@ -10,8 +10,8 @@ static void add_between(rotid_matrix *a, int first, int second, const double *e)
 static void add_chain(const struct chain *chain, const double *ek, const double *em, rotid_matrix *k, rotid_matrix *m)
 {
     for (int i = 0; i < chain_elements(chain); i++) {
-        add_between(k, chain_node(chain, i), chain_node(chain, i + 1), ek);
-        add_between(m, chain_node(chain, i), chain_node(chain, i + 1), em);
+        beam_add_between(k, chain_node(chain, i), chain_node(chain, i + 1), ek);
+        beam_add_between(m, chain_node(chain, i), chain_node(chain, i + 1), em);
     }
 }
 
@@ -45,8 +45,8 @@ static void add_axis_element(const struct beam *beam, int e, rotid_matrix *k, ro
                 lumped_add(beam, &lumped, &element, ek, em);
         hinge_condense(beam, e, ek, em);
     }
-    add_between(k, e, e + 1, ek);
-    add_between(m, e, e + 1, em);
+    beam_add_between(k, e, e + 1, ek);
+    beam_add_between(m, e, e + 1, em);
 }
 
 /* those outside the elements with a hinge */
@@ -60,8 +60,8 @@ static void add_lumped(const struct beam *beam, rotid_matrix *k, rotid_matrix *m
             continue;
         axis_quantities(beam, e, &element);
         lumped_add(beam, &lumped, &element, ek, em);
-        add_between(k, e, e + 1, ek);
-        add_between(m, e, e + 1, em);
+        beam_add_between(k, e, e + 1, ek);
+        beam_add_between(m, e, e + 1, em);
     }
 }
 
@@ -138,8 +138,8 @@ static void differentiate_axis_element(const struct beam *beam, struct parameter
             }
         hinge_differentiate(beam, parameter, e, k, m, ek, em);
     }
-    add_between(dk, e, e + 1, ek);
-    add_between(dm, e, e + 1, em);
+    beam_add_between(dk, e, e + 1, ek);
+    beam_add_between(dm, e, e + 1, em);
 }
 
 static void differentiate_lumped(const struct beam *beam, struct parameter parameter, rotid_matrix *dk, rotid_matrix *dm)
@@ -154,8 +154,8 @@ static void differentiate_lumped(const struct beam *beam, struct parameter param
         axis_direction(beam, parameter, e, &d);
         if (!lumped_differentiate(beam, parameter, &lumped, &element, &d, ek, em))
             continue;
-        add_between(dk, e, e + 1, ek);
-        add_between(dm, e, e + 1, em);
+        beam_add_between(dk, e, e + 1, ek);
+        beam_add_between(dm, e, e + 1, em);
     }
 }
 

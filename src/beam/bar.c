@@ -15,11 +15,6 @@ static void add_bar(const struct bar *bar, double length, int first, int second,
     add_between(m, first, second, (const double[]){2 * j, j, j, 2 * j});
 }
 
-static double middle_of(const struct mesh *mesh, int e)
-{
-    return (mesh->z[e] + mesh->z[e + 1]) / 2;
-}
-
 /* What a material with these moduli and density adds; f: NULL, or the factors of effects */
 static void add_part(const struct beam *beam, const struct material *of, const struct section *section,
                      const struct effect_field *f, struct bar *sum)
@@ -60,7 +55,7 @@ static struct bar axis_bar(const struct beam *beam, int e)
     int count = factors_parts(beam, e, &part, &factor), group = rotor->segment[beam->mesh.segment[e]].group;
     double pull = fibres(beam, e);
     struct bar bar = {.stiffness =
-                          pull != 0 ? pull * rotor_axial_force(rotor, group, middle_of(&beam->mesh, e)) : contraction(beam, e)};
+                          pull != 0 ? pull * rotor_axial_force(rotor, group, mesh_middle(&beam->mesh, e)) : contraction(beam, e)};
     for (int i = 0; i < count; i++) {
         struct material material = rotor->group[part[i].group].material;
         material.g = material_shear_modulus(&material);
@@ -104,7 +99,7 @@ static struct bar axis_direction_of(const struct beam *beam, struct parameter pa
     }
     double pull = fibres(beam, e);
     if (pull != 0)
-        d.stiffness += pull * rotor_axial_force_derivative(&beam->rotor, parameter, middle_of(&beam->mesh, e));
+        d.stiffness += pull * rotor_axial_force_derivative(&beam->rotor, parameter, mesh_middle(&beam->mesh, e));
     return d;
 }
 

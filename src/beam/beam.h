@@ -56,8 +56,9 @@ struct mesh {
  * equal parts. ROTID_OK or ROTID_ERROR_MEMORY. */
 int mesh_build(struct pool *pool, const struct rotor *rotor, int refine, struct mesh *mesh);
 
-/* The node on the axis nearest to z. */
+/* The node on the axis nearest to z, and the middle of an element of it. */
 int mesh_node_at(const struct mesh *mesh, double z);
+double mesh_middle(const struct mesh *mesh, int e);
 
 /* Elements of a chain, and its i-th node from the end where it begins, 0 <= i <= elements. */
 int chain_elements(const struct chain *chain);
@@ -158,6 +159,9 @@ void beam_set(struct beam *beam, const double *x);
 
 /* dK/dx_p and dM/dx_p at the values of the last beam_assemble. */
 void beam_differentiate(const struct beam *beam, int p, rotid_matrix *dk, rotid_matrix *dm);
+
+/* Adds the matrix e [4 * 4] of an element between two nodes. */
+void beam_add_between(rotid_matrix *a, int first, int second, const double *e);
 
 /* p += P: the polar inertia of what turns, in the place of the rotary inertia of M: twice that of sections, rods and bars, that
  * of disks as stated. With theta = -dv/dz in both planes the gyroscopic terms of a rotor that spins at W from x to y are W P y'

@@ -97,12 +97,6 @@ void beam_prolong(const struct beam *beam, const double *u, const struct mesh *f
 /* What turns with a beam: polar inertia. And a stiffness that is spread over a group. Both are mass matrices of other quantities,
  * condensed at hinges like those. */
 
-static void add_between(rotid_matrix *a, int first, int second, const double *e)
-{
-    const int dof[4] = {2 * first, 2 * first + 1, 2 * second, 2 * second + 1};
-    matrix_add_element(a, 4, dof, e);
-}
-
 /* The inertia of element e without its translation, twice, or as much translation as is given. */
 static void add_axis(const struct beam *beam, int e, double per_length, rotid_matrix *a)
 {
@@ -124,7 +118,7 @@ static void add_axis(const struct beam *beam, int e, double per_length, rotid_ma
             lumped_add(beam, &turning, &element, k, own);
     }
     hinge_condense(beam, e, stiffness, own);
-    add_between(a, e, e + 1, own);
+    beam_add_between(a, e, e + 1, own);
 }
 
 static void add_chain(const struct chain *chain, struct element element, rotid_matrix *a)
@@ -134,7 +128,7 @@ static void add_chain(const struct chain *chain, struct element element, rotid_m
     element.rhoi *= 2;
     element_matrices(&element, k, m);
     for (int i = 0; i < chain_elements(chain); i++)
-        add_between(a, chain_node(chain, i), chain_node(chain, i + 1), m);
+        beam_add_between(a, chain_node(chain, i), chain_node(chain, i + 1), m);
 }
 
 /* As add_chain, of a chain that is drawn to the left: the sign of the rotation turns. */
@@ -149,7 +143,7 @@ static void add_left_chain(const struct chain *chain, struct element element, ro
             if ((r + c) % 2)
                 m[r + 4 * c] = -m[r + 4 * c];
     for (int i = 0; i < chain_elements(chain); i++)
-        add_between(a, chain_node(chain, i), chain_node(chain, i + 1), m);
+        beam_add_between(a, chain_node(chain, i), chain_node(chain, i + 1), m);
 }
 
 void beam_gyroscopic(const struct beam *beam, rotid_matrix *p)
@@ -189,7 +183,7 @@ void beam_spread(const struct beam *beam, int group, double stiffness, rotid_mat
     double from, to;
     rotor_group_span(&beam->rotor, group, &from, &to);
     for (int e = 0; e < beam->mesh.nelement; e++) {
-        double middle = (beam->mesh.z[e] + beam->mesh.z[e + 1]) / 2;
+        double middle = mesh_middle(&beam->mesh, e);
         if (middle > from && middle < to)
             add_axis(beam, e, stiffness / (to - from), s);
     }

@@ -121,6 +121,11 @@ int mesh_node_at(const struct mesh *mesh, double z)
     return i + 1 < mesh->naxis && mesh->z[i + 1] - z < z - mesh->z[i] ? i + 1 : i;
 }
 
+double mesh_middle(const struct mesh *mesh, int e)
+{
+    return (mesh->z[e] + mesh->z[e + 1]) / 2;
+}
+
 static void add_far_node(struct mesh *mesh, int node)
 {
     mesh->far[mesh->nfar++] = 2 * node;
