@@ -142,9 +142,9 @@ int columns_prepare(struct columns *c)
         memcpy(c->phi + (ptrdiff_t)i * n, c->functional.prediction.phi + (ptrdiff_t)c->mode[i].pair * n,
                (size_t)n * sizeof *c->phi);
     struct nelson_band nelson;
-    int status = matrix_new(pool, n, k->kd, k->nfar, k->far, &c->dk);
+    int status = matrix_like(pool, k, &c->dk);
     if (!status)
-        status = matrix_new(pool, n, k->kd, k->nfar, k->far, &c->dm);
+        status = matrix_like(pool, k, &c->dm);
     if (!status)
         status = nelson_band_new(pool, k, most, &nelson);
     if (!status)

@@ -121,10 +121,10 @@ int export_model_open(struct pool *pool, const struct job *job, const struct ide
     rotid_matrix structure;
     if (!status) {
         discrete_structure(&discrete->discrete, &structure);
-        status = matrix_new(pool, structure.n, structure.kd, structure.nfar, structure.far, &model->k);
+        status = matrix_like(pool, &structure, &model->k);
     }
     if (!status)
-        status = matrix_new(pool, structure.n, structure.kd, structure.nfar, structure.far, &model->m);
+        status = matrix_like(pool, &structure, &model->m);
     if (!status)
         status = spectrum_compute(pool, job->models, &job->rotor, nparameter, job->unknowns.parameter, x,
                                   job->options.fit.reduction == ROTID_IRS ? ROTID_IRS : ROTID_GUYAN,
@@ -173,19 +173,11 @@ static int row_after(const rotid_matrix *a, int row, int column)
     return a->n;
 }
 
-static int far_place(const rotid_matrix *a, int dof)
-{
-    for (int f = 0; f < a->nfar; f++)
-        if (a->far[f] == dof)
-            return f;
-    return -1;
-}
-
 static double entry(const rotid_matrix *a, int row, int column)
 {
     if (row - column <= a->kd)
         return a->band[(row - column) + (ptrdiff_t)column * (a->kd + 1)];
-    int i = far_place(a, row), j = far_place(a, column);
+    int i = matrix_far_position(a, row), j = matrix_far_position(a, column);
     return i < 0 || j < 0 ? 0 : a->block[i + (ptrdiff_t)j * a->nfar];
 }
 

@@ -362,7 +362,7 @@ int eigen_band_new(struct pool *pool, const rotid_matrix *structure, int count, 
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < n; i++)
         e->all[i] = i;
-    int status = matrix_new(pool, n, structure->kd, structure->nfar, structure->far, &e->shifted);
+    int status = matrix_like(pool, structure, &e->shifted);
     if (!status)
         status = factor_new(pool, FACTOR_CHOLESKY, structure, n, e->all, &e->factor);
     if (!status)

@@ -500,6 +500,10 @@ int singular_values(int m, int n, const double *jacobian, double *value, double 
 
 /* Storage for a zero matrix of the given structure; `far` is kept, not copied. ROTID_OK or ROTID_ERROR_MEMORY. */
 int matrix_new(struct pool *pool, int n, int kd, int nfar, const int *far, rotid_matrix *a);
+int matrix_like(struct pool *pool, const rotid_matrix *structure, rotid_matrix *a);
+
+/* Where a degree of freedom stands among the far ones, -1: it is none of them. */
+int matrix_far_position(const rotid_matrix *a, int dof);
 
 void matrix_zero(rotid_matrix *a);
 

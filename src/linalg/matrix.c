@@ -27,6 +27,11 @@ static size_t block_length(const rotid_matrix *a)
     return (size_t)a->nfar * (size_t)a->nfar;
 }
 
+int matrix_like(struct pool *pool, const rotid_matrix *structure, rotid_matrix *a)
+{
+    return matrix_new(pool, structure->n, structure->kd, structure->nfar, structure->far, a);
+}
+
 void matrix_zero(rotid_matrix *a)
 {
     memset(a->band, 0, band_length(a) * sizeof(double));
@@ -34,7 +39,7 @@ void matrix_zero(rotid_matrix *a)
         memset(a->block, 0, block_length(a) * sizeof(double));
 }
 
-static int far_position(const rotid_matrix *a, int dof)
+int matrix_far_position(const rotid_matrix *a, int dof)
 {
     for (int f = 0; f < a->nfar; f++)
         if (a->far[f] == dof)
@@ -49,7 +54,7 @@ void matrix_add(rotid_matrix *a, int i, int j, double value)
         a->band[(high - low) + (ptrdiff_t)low * (a->kd + 1)] += value;
         return;
     }
-    int fi = far_position(a, i), fj = far_position(a, j);
+    int fi = matrix_far_position(a, i), fj = matrix_far_position(a, j);
     a->block[fi + (ptrdiff_t)fj * a->nfar] += value;
     a->block[fj + (ptrdiff_t)fi * a->nfar] += value;
 }

@@ -34,8 +34,7 @@ static int is_close(struct pool *pool, const struct pair *pair, int *close)
     int *all = POOL_ARRAY(pool, int, n);
     for (int i = 0; all && i < n; i++)
         all[i] = i;
-    if (!all || matrix_new(pool, n, pair->k->kd, pair->k->nfar, pair->k->far, &shifted) ||
-        factor_new(pool, FACTOR_CHOLESKY, pair->k, n, all, &factor))
+    if (!all || matrix_like(pool, pair->k, &shifted) || factor_new(pool, FACTOR_CHOLESKY, pair->k, n, all, &factor))
         return ROTID_ERROR_MEMORY;
     matrix_combine(1, pair->k, -(here + fmax(CLOSE_EIGENVALUES * fabs(here), zero)), pair->m, &shifted);
     *close = factor_negative_count(&factor, &shifted) > pair->count;

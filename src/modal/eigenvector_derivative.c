@@ -192,7 +192,7 @@ int nelson_band_new(struct pool *pool, const rotid_matrix *structure, int most, 
         return status;
     if (factor_is_wide(structure))
         return pencil_new(pool, structure, &b->pencil);
-    status = matrix_new(pool, n, structure->kd, structure->nfar, structure->far, &b->shifted);
+    status = matrix_like(pool, structure, &b->shifted);
     return status ? status : factor_new(pool, FACTOR_CHOLESKY, structure, n, b->all, &b->inertia);
 }
 

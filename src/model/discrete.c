@@ -163,11 +163,6 @@ int discrete_rigid_motions(const struct discrete *discrete, double *u)
     return motion_of(discrete->as) == MODE_BENDING ? 2 : 1;
 }
 
-static int new_matrix(struct pool *pool, const rotid_matrix *structure, rotid_matrix *a)
-{
-    return matrix_new(pool, structure->n, structure->kd, structure->nfar, structure->far, a);
-}
-
 /* shape less the part of it that is a rigid motion: r [count n] are the one or two there are, mr M r, products m11, m12, m22 of
  * them */
 static void take_rigid_part(int n, int count, const double *r, const double *mr, const double *shape, double *elastic)
@@ -213,11 +208,11 @@ static int count_rigid(struct pool *pool, struct discrete *discrete, const doubl
     int *elastic_only = is_solid(discrete) ? &discrete->solid.elastic_only : &discrete->beam.elastic_only;
     struct eigen_full eigen;
     double lambda[4], *phi = POOL_ARRAY(pool, double, (size_t)wanted *(size_t)n), *work = POOL_ARRAY(pool, double, 6 * (size_t)n);
-    int status = phi && work ? new_matrix(pool, &structure, &k) : ROTID_ERROR_MEMORY;
+    int status = phi && work ? matrix_like(pool, &structure, &k) : ROTID_ERROR_MEMORY;
     if (!status)
-        status = new_matrix(pool, &structure, &elastic_k);
+        status = matrix_like(pool, &structure, &elastic_k);
     if (!status)
-        status = new_matrix(pool, &structure, &m);
+        status = matrix_like(pool, &structure, &m);
     if (!status)
         status = eigen_full_new(pool, &k, wanted, &eigen);
     if (status)

@@ -17,11 +17,6 @@ struct builder {
     double *work;
 };
 
-static int new_matrix(struct pool *pool, const rotid_matrix *structure, rotid_matrix *a)
-{
-    return matrix_new(pool, structure->n, structure->kd, structure->nfar, structure->far, a);
-}
-
 /* The parameters by which the elastic stiffness of a group is E dK/dE + G dK/dG: K is of degree 1 in both. */
 static int loss_parameters(const struct machine *machine, const struct rotor *rotor, struct parameter *parameter, double *x)
 {
@@ -44,13 +39,13 @@ static int assemble(struct builder *b, const double *x)
     rotid_matrix structure;
     discrete_structure(&s->discrete, &structure);
     s->n = structure.n;
-    int status = new_matrix(b->pool, &structure, &s->m);
+    int status = matrix_like(b->pool, &structure, &s->m);
     rotid_matrix *const own[] = {&b->k, &b->p, &b->pull, &b->held};
     for (int i = 0; i < 4 && !status; i++)
-        status = new_matrix(&b->scratch, &structure, own[i]);
+        status = matrix_like(&b->scratch, &structure, own[i]);
     b->loss = POOL_ARRAY(&b->scratch, rotid_matrix, machine->nloss);
     for (int i = 0; i < machine->nloss && b->loss && !status; i++)
-        status = new_matrix(&b->scratch, &structure, &b->loss[i]);
+        status = matrix_like(&b->scratch, &structure, &b->loss[i]);
     b->work = POOL_ARRAY(&b->scratch, double, 4 * (size_t)s->n);
     if (status || !b->loss || !b->work)
         return ROTID_ERROR_MEMORY;
@@ -64,7 +59,7 @@ static int assemble(struct builder *b, const double *x)
             int from, end;
             matrix_zero(&b->held);
             rotid_matrix none = b->held;
-            status = new_matrix(&b->scratch, &structure, &none);
+            status = matrix_like(&b->scratch, &structure, &none);
             if (status)
                 return status;
             discrete_differentiate(&s->discrete, p, &b->held, &none, &from, &end);
