@@ -159,6 +159,9 @@ def from_ross_means(checks, folder):
     path, deck = folder / "rotor.json", folder / "rotor.inp"
     found, said = springs_of(checks, "kyy", saved(path, BearingElement_b={"n": 0, "kxx": 3e6, "tag": "b"}), deck)
     checks.true("from ROSS: a missing kyy is kxx, as in ROSS", found == {0: 3e6} and not said, (found, said))
+    _, said = springs_of(checks, "masses", saved(path, PointMass_a={"n": 1, "mx": 2.0, "my": 2.0}, PointMass_b={"n": 2, "mx": 1.0, "my": 3.0}), deck)
+    checks.true("from ROSS: of a PointMass mx, and my is told", rotid.run("check", deck)["geometry"]["disks"][1]["mass_kg"] == 1 and
+                [s.split(": ")[2] for s in said] == ["PointMass_b"], said)
     found, said = springs_of(checks, "list", saved(path, SealElement_s=bearing(2, [3e6, 4e6])), deck)
     checks.true("from ROSS: of a list the first", found == {1.0: 3e6} and any("several speeds" in s for s in said), (found, said))
     parts = {"BearingElement_a": bearing(0, 3e7, n_link=3), "BearingElement_b": bearing(0, 2e7, n_link=3), "BearingElement_c": bearing(3, 5e7)}

@@ -21,6 +21,7 @@ LOST = {
     "damping": "damping is left out",
     "speeds": "of bearings with values at several speeds the first one is taken",
     "kyy": "kyy is not kxx: kxx is taken, for bending in the plane x",
+    "my": "my of a PointMass is not mx: mx is taken, for bending in the plane x",
     "cross": "cross coupling (kxy, kyx) is left out",
     "mass": "added masses of bearings (mxx) are left out",
     "support": "masses on supports of bearings are left out",
@@ -142,6 +143,8 @@ def of_saved(source, root):
         elif kind == "PointMass":
             name = "m" if values.get("mx") is None else "mx"
             disks.append((item, item.node("n"), item.number(name, 0), 0.0, 0.0))
+            if item.values.get("my") is not None and item.number("my", 0) != disks[-1][2]:
+                lose("my", item)
         elif "kxx" in values or "n_link" in values:
             bearings.append(bearing(item, lose))
         elif "Id" in values and "m" in values:
