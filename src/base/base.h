@@ -38,6 +38,12 @@ double clock_seconds(void); /* since an arbitrary moment */
 #define CMPLX(re, im) __builtin_complex((double)(re), (double)(im))
 #endif
 
+/* |z|^2 */
+static inline double complex_square(double complex z)
+{
+    return creal(z) * creal(z) + cimag(z) * cimag(z);
+}
+
 /* --------------------------------------------------------------------------------------------------------------- failure */
 
 /* Why a call failed, in words for its host. */

@@ -12,17 +12,12 @@
 #define MISFIT_RATIO   3
 #define LEAST_COHERENT 0.8
 
-static double square(double complex z)
-{
-    return creal(z) * creal(z) + cimag(z) * cimag(z);
-}
-
 #define MOST_SQUARE 1e290 /* sums of squares over lines and channels have a double */
 
 static int is_finite(const struct frf *frf, int first, int last)
 {
     for (int i = first; i < last; i++)
-        if (!(square(frf->h[i]) < MOST_SQUARE) ||
+        if (!(complex_square(frf->h[i]) < MOST_SQUARE) ||
             (frf->variance && !(frf->variance[i] >= 0))) /* INFINITY: the line says nothing */
             return 0;
     return 1;
@@ -35,7 +30,7 @@ static double largest(const struct frf *frf, int first, int last, double *power,
     *power = 0;
     *constant = 1;
     for (int i = first; i < last; i++) {
-        double size = square(frf->h[i]);
+        double size = complex_square(frf->h[i]);
         most = size > most ? size : most;
         *power += size;
         *constant = *constant && frf->h[i] == frf->h[first];
@@ -77,7 +72,7 @@ static void noise_of(const struct frf *frf, int first, int last, double power, d
     double sum = 0, coherent = 0;
     for (int i = first; i < last; i++) {
         sum += frf->variance && isfinite(frf->variance[i]) ? frf->variance[i] : 0;
-        coherent += frf->coherence ? frf->coherence[i] * square(frf->h[i]) : 0;
+        coherent += frf->coherence ? frf->coherence[i] * complex_square(frf->h[i]) : 0;
     }
     *noise = frf->variance && power > 0 ? sqrt(sum / power) : NAN;
     *coherence = frf->coherence && power > 0 ? coherent / power : NAN;
@@ -90,7 +85,7 @@ static int is_noisy(const struct frf *frf, int first, int last, double noise, do
         return 0;
     int bad = 0;
     for (int i = first; i < last; i++)
-        bad += frf->variance[i] > NOISY_RATIO * usual * (NOISY_RATIO * usual) * square(frf->h[i]);
+        bad += frf->variance[i] > NOISY_RATIO * usual * (NOISY_RATIO * usual) * complex_square(frf->h[i]);
     return bad * NOISY_LINES >= last - first;
 }
 
@@ -169,10 +164,10 @@ int channels_compare(struct pool *pool, const struct frf_set *set, int first, in
             if (set->frequency_hz[first + i] <= 0)
                 continue;
             double re = creal(h[i]), im = cimag(h[i]), to_re = creal(model[i]), to_im = cimag(model[i]);
-            hh += square(h[i]);
-            mm += square(model[i]);
+            hh += complex_square(h[i]);
+            mm += complex_square(model[i]);
             hm += CMPLX(re * to_re + im * to_im, re * to_im - im * to_re);
-            apart += square(h[i] - model[i]);
+            apart += complex_square(h[i] - model[i]);
         }
         out->channel[c].fit = hh > 0 && mm > 0 ? cabs(hm) * cabs(hm) / (hh * mm) : 0;
         left[c] = hh > 0 ? sqrt(apart / hh) : 0;

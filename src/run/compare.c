@@ -162,11 +162,6 @@ void comparison_warn_of_mesh(const struct job *job, const struct spectrum *spect
                     job->measurement.number[worst], error, largest);
 }
 
-static double square(double complex value)
-{
-    return creal(value) * creal(value) + cimag(value) * cimag(value);
-}
-
 void frf_sums_add(struct frf_sums *sums, int n, const double complex *measured, const double complex *synthesised)
 {
     for (int l = 0; l < n; l++) {
@@ -175,8 +170,8 @@ void frf_sums_add(struct frf_sums *sums, int n, const double complex *measured, 
             continue;
         sums->cross += conj(h) * m;
         sums->conjugate += h * m;
-        sums->measured += square(m);
-        sums->synthesised += square(h);
+        sums->measured += complex_square(m);
+        sums->synthesised += complex_square(h);
         sums->lines++;
     }
 }
@@ -192,7 +187,7 @@ void frf_sums_join(struct frf_sums *sums, const struct frf_sums *other)
 
 static double ratio(const struct frf_sums *sums, double complex cross)
 {
-    return sums->measured > 0 && sums->synthesised > 0 ? square(cross) / sums->measured / sums->synthesised : NAN;
+    return sums->measured > 0 && sums->synthesised > 0 ? complex_square(cross) / sums->measured / sums->synthesised : NAN;
 }
 
 double frf_sums_frac(const struct frf_sums *sums)

@@ -393,11 +393,6 @@ double estimator_balance(int nline, const struct spectra *sum)
     return ff > 0 ? xx / ff : 0;
 }
 
-static double square(double complex z)
-{
-    return creal(z) * creal(z) + cimag(z) * cimag(z);
-}
-
 static double complex total_least_squares(double balance, double ff, double xx, double complex xf)
 {
     double cross = cabs(xf), difference = xx - balance * ff, root = hypot(difference, 2 * sqrt(balance) * cross);
@@ -425,7 +420,7 @@ void estimator_transfer(int estimator, double balance, int nline, const struct s
 void estimator_coherence(int nline, const struct spectra *sum, double *coherence)
 {
     for (int l = 0; l < nline; l++) {
-        double ratio = square(sum->xf[l]) / sum->ff[l] / sum->xx[l];
+        double ratio = complex_square(sum->xf[l]) / sum->ff[l] / sum->xx[l];
         coherence[l] = sum->ff[l] > 0 && sum->xx[l] > 0 ? fmin(ratio, 1) : 0;
     }
 }
@@ -447,7 +442,7 @@ void estimator_jackknife(int estimator, int nline, int count, const struct spect
         estimator_transfer(estimator, balance, nline, sum, part);
         for (int l = 0; l < nline; l++) {
             if (own[l] > 0) /* (1 - w)/w */
-                variance[l] += square(h[l] - part[l]) * (sum->ff[l] / own[l]) / count;
+                variance[l] += complex_square(h[l] - part[l]) * (sum->ff[l] / own[l]) / count;
         }
     }
 }
@@ -725,8 +720,8 @@ static void transform(const struct work *work, struct worker *worker, int column
         size_t to = (size_t)column * (size_t)nline + (size_t)l;
         double complex f = worker->forced[work->lowest + l] / work->rate, x = worker->responding[work->lowest + l] / work->rate;
         work->out->single[to] = x * conj(f);
-        work->out->single_force[to] = creal(f) * creal(f) + cimag(f) * cimag(f);
-        work->out->single_response[to] = creal(x) * creal(x) + cimag(x) * cimag(x);
+        work->out->single_force[to] = complex_square(f);
+        work->out->single_response[to] = complex_square(x);
     }
 }
 
