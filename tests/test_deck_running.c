@@ -429,6 +429,18 @@ POOL_TEST(what_does_not_hold_the_rotor_is_refused)
     running_case_close(&c);
     assert_int_equal(running_case_open(SHAFT TWO "*PULL, GROUP=a\n1e5\n", 3000, 3, 0, &c), ROTID_OK);
     running_case_close(&c);
+    static const struct {
+        const char *more;
+        int status;
+    } damped[] = {{"*BEARING\n1, 0, 1e8\n", ROTID_OK},
+                  {"*BEARING\n1, 0, 1e14\n", ROTID_ERROR_STIFFNESS},
+                  {"*LOSS, TYPE=VISCOUS\na, 1e-4\n", ROTID_OK},
+                  {"*LOSS, TYPE=VISCOUS\na, 1e5\n", ROTID_ERROR_STIFFNESS}};
+    for (size_t i = 0; i < sizeof damped / sizeof *damped; i++) {
+        assert_int_equal(running_case_open(pool_format(&test_pool, SHAFT TWO "%s", damped[i].more), 3000, 3, 0, &c),
+                         damped[i].status);
+        running_case_close(&c);
+    }
 }
 
 TEST_GROUP(folder_make, folder_remove);

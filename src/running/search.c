@@ -10,6 +10,7 @@
 #define MODES_MOST  48
 #define REACH       2.5 /* the highest mode of the basis over the highest speed, at least */
 #define COUPLED     10
+#define RESOLVED    1e6 /* times the highest frequency of the basis: damping */
 #define ATTEMPTS    4
 #define TURN        0.35  /* of the speed, and */
 #define STRIDE      0.025 /* of the highest one: steps at which modes are followed, at most */
@@ -49,6 +50,18 @@ static int is_held(struct pool *pool, struct system *s, int npull)
     return held;
 }
 
+/* Whether the damping leaves digits of the frequencies: eigenvalues have those of the largest one, some C/M. */
+static int is_resolved(struct system *s, double highest)
+{
+    double most = 0;
+    for (int at = 0; at < 2; at++) {
+        system_at(s, at * highest);
+        for (int i = 0; i < s->size; i++)
+            most = fmax(most, fabs(s->c[i + (ptrdiff_t)s->size * i] / s->mass[i + (ptrdiff_t)s->size * i]));
+    }
+    return most <= RESOLVED * s->highest;
+}
+
 /* With a basis that reaches far enough beyond the highest speed, as far as the model has so many modes. */
 static int build(struct pool *pool, struct search *s, double highest, struct message_list *notes)
 {
@@ -63,6 +76,11 @@ static int build(struct pool *pool, struct search *s, double highest, struct mes
                 notes, ROTID_ERROR_STIFFNESS, s->machine->place.file, s->machine->place.line, s->machine->place.column,
                 "the magnetic pull is stronger than the bearings, which draws the rotor to the stator: expected a *PULL "
                 "below their stiffness");
+        if (!is_resolved(&s->system, highest))
+            return message_refuse(notes, ROTID_ERROR_STIFFNESS, s->machine->place.file, s->machine->place.line,
+                                  s->machine->place.column,
+                                  "bearings or losses damp so much that no digits of the frequencies are left: expected the "
+                                  "stiffness of what holds the rotor in place of its damping");
         if (s->system.highest >= REACH * highest || s->basis.modes >= s->system.n || s->basis.modes >= MODES_MOST)
             return ROTID_OK;
     }
