@@ -458,3 +458,22 @@ POOL_TEST(derivatives_are_those_of_differences)
     runup_close(runup);
     rotid_deck_free(deck);
 }
+
+/* What changed between two states is judged in the rotor of the second one, the machine has that of the first. */
+POOL_TEST(what_changed_between_states_has_no_run_up)
+{
+    static const char text[] =
+        "*MATERIAL, NAME=s\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7800\n*SHAFT, NAME=a, MATERIAL=s\n1, 0.05, 0, 12\n*NOISE, "
+        "FREQUENCY=1e-3\n*IDENTIFY\na.E, 1e10, 1e12, 2e11\n*STATE, NAME=bare\n*MODES\n1, 222\n2, 605\n*STATE, NAME=disc\n*DISK, "
+        "NAME=hub\n0.3, 1\n*MODES\n1, 221\n2, 570\n*RUNNING\n*BEARING, NAME=p\nstart, 5e6, 100\n*BEARING, NAME=q\nend, 5e6, "
+        "100\n*RUNUP\n1, 4200, 50\n";
+    const rotid_diagnose_options options = {.size = sizeof options, .before = "bare", .after = "disc"};
+    rotid_deck *deck;
+    rotid_diagnosis *r;
+    assert_status(rotid_deck_read_text(strlen(text), text, NULL, NULL, 0, NULL, NULL, NULL, &deck), ROTID_OK);
+    assert_status(rotid_diagnose(deck, &options, NULL, NULL, &r), ROTID_OK);
+    assert_non_null(r->base);
+    assert_int_equal(r->base->nrunup, 0);
+    rotid_diagnosis_free(r);
+    rotid_deck_free(deck);
+}

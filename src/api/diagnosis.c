@@ -28,7 +28,9 @@ static rotid_diagnosis *make_result(struct call *call, const struct states *stat
         message_add(&call->notes, SEVERITY_WARNING, NULL, 0, 0, "%s", refusals.item[i].text);
     rotid_diagnosis *made = result_diagnosis(pool, d->given.nstate ? &d->given : states, d);
     made->extended_deck = text;
-    if (compare_runup(call, states, &d->judged, made->base) || compare_runup(call, states, &d->extended_states, made->extended))
+    /* what changed between two states is judged in the rotor of the second one, which is not that of the machine */
+    if (!d->result.before &&
+        (compare_runup(call, states, &d->judged, made->base) || compare_runup(call, states, &d->extended_states, made->extended)))
         return NULL;
     return CALL_KEEP(call, &diagnosis_whole_record, made);
 }
