@@ -180,6 +180,18 @@ POOL_TEST(the_value_of_places_is_that_of_their_projected_columns)
     assert_close(found.value, log1p(g) + log1p(q), 1e-12, 0);
 }
 
+/* One sensor says nothing of shapes, whose scale is free, so that the first of a list is as good anywhere: what rounding made of
+ * this stood near nodes of the modes, where the noise of the largest component is small, and promised less of more sensors. */
+POOL_TEST(sensors_that_are_equal_are_not_chosen_by_rounding)
+{
+    rotid_suggestion *s = suggest_text(
+        pool_format(&test_pool, "*IDENTIFY\nleft.E, 1e10, 6e11, 2.1e11\n%s*NOISE, FREQUENCY=0.001, SHAPE=0.01\n", shaft), NULL);
+    assert_true(s->ncounts > 5);
+    for (int i = 1; i < s->ncounts; i++)
+        assert_true(s->counts[i].half_width_percent <= 1.005 * s->counts[i - 1].half_width_percent);
+    rotid_suggestion_free(s);
+}
+
 /* All 84 choices of three places beside the one that is made. */
 POOL_TEST(no_choice_of_three_places_is_much_better)
 {

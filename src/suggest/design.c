@@ -245,7 +245,7 @@ static int is_free(const struct choice *c, int place)
     return 1;
 }
 
-/* The free place of the largest value, *best -1 where none is above `least`. */
+/* The free place of the largest value, the first of those that are equal, *best -1 where none is above `least`. */
 static int best_addition(struct choice *c, double least, int *best)
 {
     *best = -1;
@@ -258,7 +258,7 @@ static int best_addition(struct choice *c, double least, int *best)
         change(c, i, 0);
         if (status)
             return status;
-        if (value > least) {
+        if (value > least + GAIN) {
             least = value;
             *best = i;
         }
@@ -279,7 +279,7 @@ static int exchange(struct choice *c, const int *fixed)
             status = total(c, &before);
             change(c, i, 0);
             if (!status)
-                status = best_addition(c, before + GAIN, &best);
+                status = best_addition(c, before, &best);
             if (!status && best >= 0 && best != i)
                 changed = 1;
             change(c, !status && best >= 0 ? best : i, 1);
