@@ -78,6 +78,25 @@ POOL_TEST(two_modes_half_a_percent_apart)
     assert_int_equal(ema.std_from_impacts, 1);
 }
 
+/* Poles that are not refined are off alike in all channels, so that more channels make the scatter less and not the error. */
+POOL_TEST(deviations_of_poles_that_are_not_refined_hold_their_error)
+{
+    struct truth truth;
+    struct frf_set set;
+    struct ema ema;
+    truth_beam(4, 8, 0, 60, 3e-3, &truth);
+    truth.frequency_hz[2] = truth.frequency_hz[1] * 1.02;
+    struct random_stream random = {.state = 1};
+    truth_measure(&test_pool, &truth, FRF_ACCELERATION, 20, 0.25, 2400, 1e-3, 1, &random, &set);
+    struct ema_options options = {.no_refinement = 1};
+    compute(&set, &options, &ema);
+    assert_int_equal(ema.nmode, 4);
+    for (int r = 0; r < 4; r++) {
+        assert_close(ema.mode[r].frequency_hz, truth.frequency_hz[r], 0, 1.5 * ema.mode[r].frequency_std);
+        assert_close(ema.mode[r].damping, truth.damping[r], 0, 1.5 * ema.mode[r].damping_std);
+    }
+}
+
 POOL_TEST(the_window_comes_off_the_damping)
 {
     struct truth truth;

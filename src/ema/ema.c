@@ -658,6 +658,8 @@ static int fit_modes(struct extraction *job)
     status = refine_poles(&fit, job->options.no_refinement ? 0 : ITERATIONS, job->environment, &refinement);
     if (status != ROTID_OK)
         return status;
+    if (job->options.no_refinement)
+        refinement_add_step(n, &refinement);
     out->refined = refinement.iterations;
     out->std_from_impacts = job->stated;
     double *gain = POOL_ARRAY(job->pool, double, n);

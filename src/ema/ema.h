@@ -356,6 +356,10 @@ int refinement_open(struct pool *pool, const struct ema_band *band, int nline, c
  * On exit the fit is evaluated with spread. ROTID_OK or ROTID_STOP_CANCELLED. */
 int refine_poles(struct modal_fit *fit, int most, const rotid_environment *environment, struct refinement *refinement);
 
+/* Of refine_poles that evaluated only: adds the step s = A^-1 sum g_c to the minimum, by which the poles are off, as s s' to the
+ * covariance. */
+void refinement_add_step(int nmode, struct refinement *refinement);
+
 /* ----------------------------------------------------------------------------------------------------------------- modes */
 
 /* The modes of the result from a fit: frequencies, residues, quality flags. */

@@ -325,3 +325,17 @@ int refine_poles(struct modal_fit *fit, int most, const rotid_environment *envir
     pole_covariance(fit, refinement);
     return ROTID_OK;
 }
+
+void refinement_add_step(int nmode, struct refinement *refinement)
+{
+    int p = 2 * nmode;
+    const double *score = refinement->work, *widened = refinement->widened; /* the scores of pole_covariance */
+    double *step = refinement->work + p, *covariance = refinement->covariance;
+    memset(step, 0, (size_t)p * sizeof *step);
+    for (int k = 0; k < p; k++)
+        for (int j = 0; j < p; j++)
+            step[j] += covariance[j + (ptrdiff_t)k * p] / (widened[j] * widened[k]) * score[k];
+    for (int k = 0; k < p; k++)
+        for (int j = 0; j < p; j++)
+            covariance[j + (ptrdiff_t)k * p] += step[j] * step[k];
+}
