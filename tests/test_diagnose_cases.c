@@ -320,7 +320,7 @@ UNIT_TEST(modes_that_only_exchanged_channels_exchange_are_not_accused)
 
 /* At moduli that are off by a tenth the model's modes 6 and 7 have each other's shapes: fits with that pairing end between them,
  * and a gradient in the core beside the density came out with 99.7 %. Ten seconds: only with ROTID_LONG (make test-long). */
-UNIT_TEST(a_mode_paired_wrongly_by_the_base_is_paired_by_the_likeliest_explanation)
+UNIT_TEST(a_mode_that_shapes_pair_wrongly_has_its_number)
 {
     struct run r;
     if (!getenv("ROTID_LONG"))

@@ -298,6 +298,37 @@ POOL_TEST(a_pair)
     rotid_fit_free(fit);
 }
 
+/* A fit that ended two deviations off its minimum without having converged: its line promises the way back, which is no evidence.
+ */
+POOL_TEST(what_no_step_brought_is_no_evidence)
+{
+    double mean[2][16], std[16], ends[2];
+    struct evidence_data *data;
+    struct states states;
+    struct state one;
+    rotid_fit_result *fit;
+    open_bar(1);
+    fit_with(NULL, NULL, &states, &one, &fit);
+    assert_status(evidence_open(&test_pool, &states, number, holdout, &data), ROTID_OK);
+    double norm = 0, along = 0;
+    for (int i = 0; i < fit->nresidual; i++)
+        norm += fit->jacobian[i] * fit->jacobian[i];
+    for (int i = 0; i < fit->nresidual; i++) {
+        fit->r[i] += 2 * fit->jacobian[i] / sqrt(norm);
+        along += fit->r[i] * fit->jacobian[i] / sqrt(norm);
+    }
+    for (int converged = 0; converged < 2; converged++) {
+        struct evidence e = {.mean = mean[converged], .std = std};
+        fit->converged = converged;
+        assert_status(evidence_of_fit(data, &states, job.unknowns.nparameter, fit, 0, NULL, 0, NULL, NULL, &e), ROTID_OK);
+        ends[converged] = e.log_stated;
+    }
+    assert_close(ends[1] - ends[0], along * along / 2, 1e-4, 0);
+    assert_close(mean[0][0], fit->x[0], 1e-6, 0);
+    assert_close(mean[1][0], fit->x[0] - along / sqrt(norm), 1e-4, 0);
+    rotid_fit_free(fit);
+}
+
 /* The bar hung twice, with a noise of its own each: both say what its modulus is. */
 POOL_TEST(two_states)
 {

@@ -59,6 +59,20 @@ UNIT_TEST(modes_that_cross_on_the_way_to_a_far_cause_keep_their_numbers)
     rotid_diagnosis_free(d);
 }
 
+/* The numbers of the deck are tried, as nothing explains the data, and explain less than the shapes' own. */
+UNIT_TEST(the_numbers_of_the_deck_give_way_where_they_explain_less)
+{
+    rotid_diagnosis *d = diagnosed("missed_mode");
+    assert_int_equal(d->verdict.kind, ROTID_UNEXPLAINED);
+    assert_int_equal(d->ndata_findings, 3);
+    for (int i = 0; i < 3; i++) {
+        assert_string_equal(d->data_findings[i].id, "mode_pairing");
+        assert_int_equal(d->data_findings[i].modes[0], 4 + i);
+        assert_int_equal(d->data_findings[i].modes[1], 5 + i);
+    }
+    rotid_diagnosis_free(d);
+}
+
 /* What the mesh of a solid is held to is that of the fit, not of the beam's moduli, which are four times off. */
 UNIT_TEST(a_solid_far_from_the_beams_moduli_explains_all)
 {

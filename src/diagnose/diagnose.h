@@ -368,6 +368,8 @@ struct engine {
     int dropped;                        /* modes that nobody's shape fits and that were left out */
     int exchanged;                      /* the shapes of which measured mode, from 1, and the next one change places; 0: none */
     struct job_measurement measured;    /* with them, where there are any */
+    int *by_shape, numbered;            /* the pairs in whose place the deck's numbers were tried, NULL: not yet; being tried */
+    double best_by_shape;               /* ln P of the likeliest explanation with them */
     rotid_fit_result *fit;              /* of these states */
     int user_reduction;                 /* of the deck's own FIT */
     int coloured;                       /* the noise of the shapes was raised for its smooth part */
@@ -769,9 +771,11 @@ int pairing_note(struct engine *engine, const int *number);
 int pairing_adopt(struct engine *engine, const struct job_measurement *measured, int *number);
 /* The modes of the job paired with those of its model at x, its effects as they stand. Statuses of the spectrum. */
 int pairing_at(struct engine *engine, const struct job *job, const double *x, struct comparison *compared);
-/* The base may have paired a mode wrongly that the likeliest explanation pairs otherwise: its pairs are adopted where they lower
- * its own chi2, and the search has to be repeated, *changed. Statuses of memory and cancellation only. */
-int pairing_beside(struct engine *engine, const struct posterior *posterior, int *changed);
+/* Where shapes pair the modes otherwise than the deck numbers them and what leaves only noise is not likely, the search is
+ * repeated with the numbers of the deck, and again with those before where that made the likeliest explanation less likely:
+ * *changed. A strong cause turns shapes of neighbours into each other, and fits with such pairs end between them. ROTID_OK or
+ * ROTID_ERROR_MEMORY. */
+int pairing_as_numbered(struct engine *engine, const struct posterior *posterior, int *changed);
 /* The findings about pairing again, the data and the base being others. */
 int pairing_note_again(struct engine *engine);
 /* Behind a search: shapes of two neighbours under each other's number; without shapes shifts and gaps of the numbers. Where the

@@ -677,6 +677,46 @@ static void take_rows(const struct evidence_data *d, const rotid_fit_result *fit
     }
 }
 
+/* a [n] less its part along the unit vector q. Returns that part. */
+static double take_part(int n, const double *q, double *a)
+{
+    double along = product_dot(n, q, a);
+    for (int i = 0; i < n; i++)
+        a[i] -= along * q[i];
+    return along;
+}
+
+/* What the line at the end of a fit promises and no step along it brought, as where two modes veer, is no evidence: it is taken
+ * out of the residual r [nrow]. Returns its square; 0 for a fit that ended at a minimum. */
+static double take_promise(const rotid_fit_result *fit, struct pool *pool, int nrow, int n, const double *rows, double *r)
+{
+    double *basis = fit->converged ? NULL : POOL_ARRAY(pool, double, (size_t)nrow *(size_t)n), sum = 0;
+    for (int p = 0, count = 0; p < n && basis; p++) {
+        double *q = basis + (ptrdiff_t)count * nrow;
+        memcpy(q, rows + (ptrdiff_t)p * nrow, (size_t)nrow * sizeof *q);
+        double whole = product_dot(nrow, q, q);
+        for (int k = 0; k < 2 * count; k++) /* twice, for what rounding leaves */
+            (void)take_part(nrow, basis + (ptrdiff_t)(k % count) * nrow, q);
+        double norm = product_dot(nrow, q, q);
+        if (!(norm > 1e-20 * whole))
+            continue;
+        for (int i = 0; i < nrow; i++)
+            q[i] /= sqrt(norm);
+        double along = take_part(nrow, q, r);
+        sum += along * along;
+        count++;
+    }
+    return sum;
+}
+
+static void add_to_all(double more, struct evidence *out)
+{
+    out->log_z += more;
+    out->log_stated += more;
+    out->log_exact += more;
+    out->log_else += more;
+}
+
 static struct unknown unknown_of_prior(const struct model_prior *prior, double x)
 {
     if (prior->deviation > 0)
@@ -689,6 +729,7 @@ int evidence_of_model(const struct evidence_data *d, const struct model_prior *p
 {
     struct pool pool;
     const double known[2] = {0, 0};
+    double promise;
     if (fit->nresidual != d->nrow)
         return ROTID_ERROR_ARGUMENT;
     pool_open(&pool, d->pool->allocator);
@@ -699,7 +740,9 @@ int evidence_of_model(const struct evidence_data *d, const struct model_prior *p
         u[p] = unknown_of_prior(&prior[p], fit->x[p]);
     if (!status) {
         take_rows(d, fit, 0, NULL, u, rows);
+        promise = take_promise(fit, &pool, d->nrow, fit->n, rows, rows + (ptrdiff_t)fit->n * d->nrow);
         status = evidence_of_rows(d, &pool, fit->n, u, rows, nown, known, NULL, NULL, with_else, 0, NULL, out);
+        add_to_all(-promise / 2, out);
     }
     for (int p = 0; p < nown && !status; p++) {
         out->mean[p] = fmin(fmax(fit->x[p] + u[p].step * out->mean[p], prior[p].lower), prior[p].upper);
@@ -719,7 +762,7 @@ int evidence_of_fit(const struct evidence_data *d, const struct states *states, 
         return ROTID_ERROR_ARGUMENT;
     pool_open(&pool, d->pool->allocator);
     struct unknown *u = POOL_ARRAY(&pool, struct unknown, n + 1);
-    double *rows = POOL_ARRAY(&pool, double, (size_t)nrow *(size_t)(n + 1)), known[2] = {0, 0};
+    double *rows = POOL_ARRAY(&pool, double, (size_t)nrow *(size_t)(n + 1)), known[2] = {0, 0}, promise;
     int status = !u || !rows ? ROTID_ERROR_MEMORY : ROTID_OK;
     for (int p = 0; p < n && !status; p++) {
         const struct fault_column *f = p < fit->n ? NULL : fault + p - fit->n;
@@ -731,7 +774,9 @@ int evidence_of_fit(const struct evidence_data *d, const struct states *states, 
     }
     if (!status) {
         take_rows(d, fit, nfault, fault, u, rows);
+        promise = take_promise(fit, &pool, nrow, fit->n, rows, rows + (ptrdiff_t)n * nrow);
         status = evidence_of_rows(d, &pool, n, u, rows, nown, known, states, else_scan, else_scan != NULL, nfault, fault, out);
+        add_to_all(-promise / 2, out);
     }
     for (int p = 0; p < nown && !status; p++) {
         double x = fit->x[p] + u[p].step * out->mean[p];

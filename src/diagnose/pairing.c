@@ -96,30 +96,31 @@ int pairing_at(struct engine *engine, const struct job *job, const double *x, st
     return status ? status : comparison_make(engine->pool, &own, &spectrum, &quiet, compared);
 }
 
-int pairing_beside(struct engine *engine, const struct posterior *posterior, int *changed)
+int pairing_as_numbered(struct engine *engine, const struct posterior *posterior, int *changed)
 {
-    const struct explanation *lead = NULL;
     const struct job_measurement measured = engine->job->measurement;
-    struct comparison compared;
-    rotid_fit_result *fit = NULL;
+    size_t size = (size_t)measured.nmode * sizeof *measured.number;
+    const struct explanation *lead = posterior->item;
+    int *other = engine->by_shape;
+    double explained = 0;
     *changed = 0;
-    for (int i = 0; i < posterior->count && !lead; i++)
-        if (posterior->item[i].refit && posterior->item[i].refit->fit)
-            lead = &posterior->item[i];
-    if (!lead || engine->states.nstate > 1 || !measured.shape)
+    if (other && engine->numbered) { /* once */
+        engine->numbered = 0;
+        *changed = lead->log_posterior < engine->best_by_shape;
+        return *changed ? pairing_adopt(engine, &measured, other) : ROTID_OK;
+    }
+    if (other || engine->dropped || engine->states.nstate > 1 || !measured.shape ||
+        !memcmp(measured.number, engine->number, size))
         return ROTID_OK;
-    const struct refit *refit = lead->refit;
-    int status = pairing_at(engine, &refit->states.state->job, refit->fit->x, &compared);
-    if (status)
-        return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
-    if (!memcmp(compared.number, engine->number, (size_t)measured.nmode * sizeof *compared.number))
+    for (int i = 0; i < posterior->count; i++)
+        if (!posterior->item[i].something_else && explanation_explains(engine, posterior, &posterior->item[i]))
+            explained += posterior->item[i].probability;
+    if (explained > 0.5)
         return ROTID_OK;
-    status = refit_states(engine->pool, &refit->states, compared.number, engine->holdout, engine->environment, &fit);
-    *changed = !status && fit->chi2 + LEAST_MARGIN < refit->chi2;
-    rotid_fit_free(fit);
-    if (status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED)
-        return status;
-    return *changed ? pairing_adopt(engine, &measured, compared.number) : ROTID_OK;
+    engine->by_shape = POOL_COPY(engine->pool, engine->number, measured.nmode, 0);
+    engine->best_by_shape = lead->log_posterior;
+    engine->numbered = *changed = 1;
+    return engine->by_shape ? pairing_adopt(engine, &measured, measured.number) : ROTID_ERROR_MEMORY;
 }
 
 /* Chi2 that a mode left out has to cost: 0.03 of the tests have one (so probable before), and its frequency, of relative

@@ -142,7 +142,7 @@ static int settle_data(struct engine *engine, struct round_result *result, const
     *changed = 0;
     int status = doubt ? far_starts_search(engine, result, posterior, changed) : ROTID_OK;
     if (!status && !*changed)
-        status = pairing_beside(engine, posterior, changed);
+        status = pairing_as_numbered(engine, posterior, changed);
     if (!status && *changed)
         return base_again(engine);
     if (!status)
