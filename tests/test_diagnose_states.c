@@ -411,6 +411,42 @@ POOL_TEST(data_are_corrected_by_what_the_first_state_shows)
     free(text);
 }
 
+/* Places and shapes that the first state alone was measured at tell nothing, nor do they take from the others. */
+POOL_TEST(what_was_measured_once_takes_nothing_from_the_rest)
+{
+    enum { MODES = 4, SENSORS = 7, COMMON = 4 };
+    static const char *const dense[] = {"joint:at=core.end,flexibility=3e-9", "density:group=left,factor=1.1"};
+    static const struct hidden_state states[] = {{"before", "", 1, dense}, {"after", "", 1, dense}};
+    const struct hide_request r = request(MODES, SENSORS, 1300);
+    const struct diagnose_options options = {.threads = 1};
+    char message[300], *text = hidden_states_deck(&r, 2, states, NULL, message, sizeof message);
+    const struct deck_memory memory = {"deck", strlen(text), text, NULL};
+    struct message_list notes;
+    struct states read;
+    struct job out;
+    message_open(&notes, &test_pool);
+    assert_status(deck_read_states(&test_pool, "deck", &memory, 0, NULL, &notes, &read), ROTID_OK);
+    for (int s = 0; s < SENSORS; s++) {
+        read.state[1].job.measurement.shape[s + 3 * SENSORS] = NAN;
+        if (s >= COMMON)
+            read.state[1].job.measurement.shape[s + SENSORS] = NAN;
+    }
+    assert_status(changed_job(&test_pool, &read, "before", "after", &options, NULL, &notes, &out), ROTID_OK);
+    for (int k = 0; k < MODES; k++) {
+        assert_true(out.measurement.frequency_std[k] >= sqrt(2) * 0.000999);
+        assert_true(out.measurement.frequency_std[k] < 1.1 * sqrt(2) * 0.001);
+    }
+    const double *a = read.state[1].job.measurement.shape + SENSORS;
+    for (int s = 0; s < SENSORS; s++) {
+        assert_true(isnan(out.measurement.shape[s + 3 * SENSORS]));
+        if (s < COMMON)
+            assert_close(out.measurement.shape[s + SENSORS], a[s], 0, 0.1); /* less what the model misses */
+        else
+            assert_true(isnan(out.measurement.shape[s + SENSORS]));
+    }
+    free(text);
+}
+
 /* An unknown that groups share is held in all of them, not in the first alone. */
 POOL_TEST(a_shared_unknown_is_held_in_every_group)
 {

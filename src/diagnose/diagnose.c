@@ -272,6 +272,14 @@ static void correct_shape(const struct job *before, const struct identification 
     double *a = job->measurement.shape + (ptrdiff_t)k * n, *std = job->measurement.shape_std + (ptrdiff_t)k * n, *b = work,
            *b_std = b + n, *phi = b_std + n, was = largest(n, a);
     gather(before, found, j, &job->rotor, b, b_std, phi);
+    for (int i = 0; i < n; i++)
+        if (!isfinite(a[i]) || !isfinite(b[i])) /* not measured twice */
+            a[i] = b[i] = NAN;
+    if (!(dot(n, a, a) > 0 && dot(n, b, b) > 0)) { /* the frequency alone was measured twice */
+        for (int i = 0; i < n; i++)
+            a[i] = NAN;
+        return;
+    }
     double g = dot(n, a, b) / dot(n, b, b), square = 0, along = 0;
     *other += unlike(n, a, std[0] * was, b, b_std);
     for (int i = 0; i < n; i++)
@@ -282,7 +290,7 @@ static void correct_shape(const struct job *before, const struct identification 
     for (int i = 0; i < n; i++) {
         double missed = g * (b[i] - along / square * phi[i]);
         std[i] = hypot(hypot(std[i] * was, g * b_std[i]), *other > 0 && isfinite(missed) ? sqrt(*other) * missed : 0);
-        a[i] -= missed; /* NaN where it was not measured twice */
+        a[i] -= missed;
     }
     double is = largest(n, a);
     for (int i = 0; i < n; i++)
