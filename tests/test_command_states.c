@@ -137,6 +137,8 @@ POOL_TEST(files_are_of_one_state)
                            "another one beside it\n"));
     assert_non_null(strstr(refused(pool_format(&test_pool, "frf %s --state x", at)),
                            "--state:1:1: state x is not defined, expected one of short, long one\n"));
+    assert_non_null(strstr(refused(pool_format(&test_pool, "sensitivity %s --at strip.E=8e10,strip.E", at)),
+                           "--at:1:14: strip.E is named twice, expected once"));
     assert_non_null(strstr(refused(pool_format(&test_pool, "sensitivity %s --at strip.E,clamp.x", at)),
                            "--at:1:9: clamp.x is no parameter of this deck, expected one of clamp.k, "));
 }

@@ -29,6 +29,11 @@ static int select_listed(struct command *command, const struct job *job, struct 
             return message_refuse(&command->messages, ROTID_ERROR_SYNTAX, "--at", 1, (int)(item - list) + 1,
                                   "%s is no parameter of this deck, expected one of %s", item,
                                   parameter_list(&command->pool, rotor, item));
+        for (int k = 0; k < s->n; k++)
+            if (s->parameter[k].kind == s->parameter[s->n].kind && s->parameter[k].index == s->parameter[s->n].index &&
+                s->parameter[k].component == s->parameter[s->n].component)
+                return message_refuse(&command->messages, ROTID_ERROR_SYNTAX, "--at", 1, (int)(item - list) + 1,
+                                      "%s is named twice, expected once", item);
         if (s->parameter[s->n].kind == PARAMETER_G) { /* from here on a modulus of its own */
             struct material *material = &rotor->group[s->parameter[s->n].index].material;
             material->g = material_shear_modulus(material);
