@@ -769,8 +769,6 @@ int pairing_note(struct engine *engine, const int *number);
 /* The data `measured`, modes that were left out among them, take the place of those that are judged, with the pairing `number`,
  * and what was found about pairing is that. Nothing where it is the pairing there is. ROTID_OK or ROTID_ERROR_MEMORY. */
 int pairing_adopt(struct engine *engine, const struct job_measurement *measured, int *number);
-/* The modes of the job paired with those of its model at x, its effects as they stand. Statuses of the spectrum. */
-int pairing_at(struct engine *engine, const struct job *job, const double *x, struct comparison *compared);
 /* Where shapes pair the modes otherwise than the deck numbers them and what leaves only noise is not likely, the search is
  * repeated with the numbers of the deck, and again with those before where that made the likeliest explanation less likely:
  * *changed. A strong cause turns shapes of neighbours into each other, and fits with such pairs end between them. ROTID_OK or

@@ -124,6 +124,19 @@ static int try_candidate(void *context, int index, int worker)
     return status;
 }
 
+/* The modes of the job paired with those of its model at x, its effects as they stand. */
+static int pair_at(struct engine *engine, const struct job *job, const double *x, struct comparison *compared)
+{
+    struct job own = *job;
+    struct spectrum spectrum;
+    struct message_list quiet;
+    message_open(&quiet, engine->pool);
+    own.unknowns.nparameter = engine->job->unknowns.nparameter;
+    int status = spectrum_compute_parts(engine->pool, own.models, &own.rotor, own.unknowns.nparameter, own.unknowns.parameter, x,
+                                        ROTID_GUYAN, comparison_candidates(&own), SPECTRUM_REDUCED, &spectrum);
+    return status ? status : comparison_make(engine->pool, &own, &spectrum, &quiet, compared);
+}
+
 /* The fit from a trial with the pairing beside it; *rate INFINITY where there is none. */
 static int fit_trial(struct engine *engine, const struct scan_candidate *c, const struct trial *trial,
                      const struct job_measurement *measured, double *rate, int **number, struct effect *effect)
@@ -136,7 +149,7 @@ static int fit_trial(struct engine *engine, const struct scan_candidate *c, cons
     int status = job_with_effect(engine->pool, engine->job, engine->deck_start, &trial->effect, c->cause, NULL, &job);
     job.measurement = *measured;
     if (!status)
-        status = pairing_at(engine, &job, engine->deck_start, &paired);
+        status = pair_at(engine, &job, engine->deck_start, &paired);
     if (!status)
         status = refit_job(engine->pool, &job, paired.number, measured->holdout, engine->environment, &fit);
     if (!status && fit->dof > 0) {

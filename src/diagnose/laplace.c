@@ -741,7 +741,9 @@ int evidence_of_model(const struct evidence_data *d, const struct model_prior *p
     if (!status) {
         take_rows(d, fit, 0, NULL, u, rows);
         promise = take_promise(fit, &pool, d->nrow, fit->n, rows, rows + (ptrdiff_t)fit->n * d->nrow);
-        status = evidence_of_rows(d, &pool, fit->n, u, rows, nown, known, NULL, NULL, with_else, 0, NULL, out);
+        status = pool.out_of_memory
+                     ? ROTID_ERROR_MEMORY
+                     : evidence_of_rows(d, &pool, fit->n, u, rows, nown, known, NULL, NULL, with_else, 0, NULL, out);
         add_to_all(-promise / 2, out);
     }
     for (int p = 0; p < nown && !status; p++) {
@@ -775,7 +777,9 @@ int evidence_of_fit(const struct evidence_data *d, const struct states *states, 
     if (!status) {
         take_rows(d, fit, nfault, fault, u, rows);
         promise = take_promise(fit, &pool, nrow, fit->n, rows, rows + (ptrdiff_t)n * nrow);
-        status = evidence_of_rows(d, &pool, n, u, rows, nown, known, states, else_scan, else_scan != NULL, nfault, fault, out);
+        status = pool.out_of_memory ? ROTID_ERROR_MEMORY
+                                    : evidence_of_rows(d, &pool, n, u, rows, nown, known, states, else_scan, else_scan != NULL,
+                                                       nfault, fault, out);
         add_to_all(-promise / 2, out);
     }
     for (int p = 0; p < nown && !status; p++) {

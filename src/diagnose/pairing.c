@@ -84,18 +84,6 @@ int pairing_adopt(struct engine *engine, const struct job_measurement *measured,
     return pairing_note(engine, measured->number);
 }
 
-int pairing_at(struct engine *engine, const struct job *job, const double *x, struct comparison *compared)
-{
-    struct job own = *job;
-    struct spectrum spectrum;
-    struct message_list quiet;
-    message_open(&quiet, engine->pool);
-    own.unknowns.nparameter = engine->job->unknowns.nparameter;
-    int status = spectrum_compute_parts(engine->pool, own.models, &own.rotor, own.unknowns.nparameter, own.unknowns.parameter, x,
-                                        ROTID_GUYAN, comparison_candidates(&own), SPECTRUM_REDUCED, &spectrum);
-    return status ? status : comparison_make(engine->pool, &own, &spectrum, &quiet, compared);
-}
-
 int pairing_as_numbered(struct engine *engine, const struct posterior *posterior, int *changed)
 {
     const struct job_measurement measured = engine->job->measurement;
