@@ -374,6 +374,29 @@ POOL_TEST(elements_are_written_where_none_were_given)
     assert_same_states(&meant, &back);
 }
 
+/* Those of bars too, of all states and of one. */
+POOL_TEST(elements_of_bars_are_written)
+{
+    const struct states given = read_states(
+        BAR "*BARS, NAME=a, MATERIAL=steel, CENTER=0.5, LENGTH=0.4, MODEL=TUBE\n8, 0.006, 0.015, 4 ** copper\n" UNKNOWN FREE
+            "*STATE, NAME=more\n*BARS, NAME=b, MATERIAL=steel, CENTER=0.5, LENGTH=0.4, MODEL=TUBE\n8, 0.006, 0.01, "
+            "6\n*MODES\n1, 220\n2, 600\n");
+    struct states meant;
+    struct bars bars[3];
+    assert_int_equal(states_copy(&test_pool, &given, &meant), ROTID_OK);
+    bars[0] = given.state[0].job.rotor.bars[0];
+    memcpy(bars + 1, given.state[1].job.rotor.bars, 2 * sizeof *bars);
+    for (int i = 0; i < 3; i++)
+        bars[i].elements *= 8;
+    meant.state[0].job.rotor.bars = bars;
+    meant.state[1].job.rotor.bars = bars + 1;
+    const char *text = write_with(&given, &meant, NULL);
+    assert_non_null(strstr(text, "8, 0.006, 0.015, 32 ** copper\n"));
+    assert_non_null(strstr(text, "8, 0.006, 0.01, 48\n"));
+    const struct states back = read_states(text);
+    assert_same_states(&meant, &back);
+}
+
 /* A file that is included stays one where none of its cards changes; a table becomes lines where its elements change. */
 POOL_TEST(files_stay_where_they_can)
 {

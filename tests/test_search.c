@@ -73,6 +73,15 @@ UNIT_TEST(the_numbers_of_the_deck_give_way_where_they_explain_less)
     rotid_diagnosis_free(d);
 }
 
+/* With bars in 160 elements and sections in 8 times as many the moduli of the base are 129.15 and 40.43 GPa. */
+UNIT_TEST(the_mesh_of_bars_is_refined_with_that_of_the_sections)
+{
+    rotid_diagnosis *d = diagnosed("coarse_bars");
+    assert_close(d->base->parameters[0].value, 129.15e9, 1e-3, 0);
+    assert_close(d->base->parameters[1].value, 40.43e9, 1e-3, 0);
+    rotid_diagnosis_free(d);
+}
+
 /* What the mesh of a solid is held to is that of the fit, not of the beam's moduli, which are four times off. */
 UNIT_TEST(a_solid_far_from_the_beams_moduli_explains_all)
 {

@@ -92,6 +92,18 @@ static void compare_segments(struct comparing *c, const struct rotor *a, const s
     }
 }
 
+static void compare_bars(struct comparing *c, const struct rotor *a, const struct rotor *b)
+{
+    require(c, a->nbars == b->nbars, "BARS");
+    for (int i = 0; i < a->nbars && a->nbars == b->nbars; i++) {
+        struct bars q = b->bars[i];
+        if (q.elements != a->bars[i].elements)
+            differ(c, DECK_OTHER_ELEMENTS, "BARS");
+        q.elements = a->bars[i].elements;
+        require(c, is_same(deck_rows("BARS"), &a->bars[i], &q), "BARS");
+    }
+}
+
 /* By name: common causes come before those of a state. */
 static int has_effect(const struct rotor *rotor, const struct effect *effect)
 {
@@ -124,8 +136,11 @@ unsigned deck_compare_rotors(const struct rotor *a, const struct rotor *b, const
     for (int i = 0; i < a->nring && a->nring == b->nring; i++)
         require(&c, a->ring[i].group == b->ring[i].group && is_same(deck_rows("LAYER"), &a->ring[i], &b->ring[i]), "LAYER");
     for (const struct deck_card *kind = deck_card_table; kind->name; kind++)
-        require(&c, !kind->size || kind->states == CARD_OF_MACHINE || kind->places == SENSOR_PLACES || is_same_list(kind, a, b),
+        require(&c,
+                !kind->size || kind->states == CARD_OF_MACHINE || kind->places == SENSOR_PLACES ||
+                    kind->list == offsetof(struct rotor, bars) || is_same_list(kind, a, b),
                 kind->name);
+    compare_bars(&c, a, b);
     require(&c, deck_is_near(a->sling, b->sling), "SLING");
     require(&c, a->neffect == b->neffect, "CAUSE");
     for (int i = 0; i < a->neffect; i++)

@@ -109,6 +109,9 @@ static void share_mesh(struct states *meant)
             for (int i = 0; i < a->nsegment && i < b->nsegment; i++)
                 if (b->segment[i].elements > a->segment[i].elements)
                     a->segment[i].elements = b->segment[i].elements;
+            for (int i = 0; i < a->nbars && i < b->nbars; i++)
+                if (b->bars[i].elements > a->bars[i].elements)
+                    a->bars[i].elements = b->bars[i].elements;
         }
 }
 
@@ -356,6 +359,15 @@ static void set_elements(struct deck_line_edit *edit, void *context)
     edit->value[3] = pool_format(in->w->pool, "%d", to->elements);
 }
 
+/* A card has one line. */
+static void set_bar_elements(struct deck_line_edit *edit, void *context)
+{
+    const struct in_part *in = context;
+    int to = in->w->meant.state[in->s].job.rotor.bars[in->first].elements;
+    if (to != in->w->given->state[in->s].job.rotor.bars[in->first].elements)
+        edit->value[3] = pool_format(in->w->pool, "%d", to);
+}
+
 /* The sections of a table become lines: a table is not ours to change. first ... last: its groups, a card each; `named`: the card
  * has the name of the only one. */
 static void write_sections(struct writing *w, int at, int s, int first, int last, int named)
@@ -399,12 +411,17 @@ static void edit_elements(struct writing *w)
     for (int i = 0, before = -1; i < w->edit.npart; i++) {
         struct deck_part *part = &w->edit.part[i];
         struct in_part in = {.w = w, .part = part};
-        if (!is_sections(part))
-            continue;
+        int is_bars = deck_edit_is(part, "BARS");
         while (in.s < w->meant.nstate && !is_in(w, part, in.s))
             in.s++;
-        if (in.s == w->meant.nstate)
+        if (in.s == w->meant.nstate || !(is_bars || is_sections(part)))
             continue;
+        if (is_bars) {
+            for (int k = 0; k < i; k++)
+                in.first += deck_edit_is(&w->edit.part[k], "BARS") && is_in(w, &w->edit.part[k], in.s);
+            deck_edit_lines(&w->edit, i, set_bar_elements, &in);
+            continue;
+        }
         const struct rotor *rotor = &w->meant.state[in.s].job.rotor;
         int last = in.first = group_of(rotor, deck_edit_option(part, "NAME")), named = in.first >= 0;
         int is_table = deck_edit_option(part, "FILE") != NULL;

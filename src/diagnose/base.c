@@ -119,22 +119,25 @@ static double against_noise(const struct job *job, const int *number, const doub
 static int can_be_refined(const struct rotor *rotor)
 {
     long elements = 2 * rotor_elements(rotor);
-    for (int b = 0; b < rotor->ntierod + rotor->nbars; b++)
-        elements += b < rotor->ntierod ? rotor->tierod[b].elements : rotor->bars[b - rotor->ntierod].elements;
+    for (int i = 0; i < rotor->ntierod; i++)
+        elements += rotor->tierod[i].elements;
+    for (int i = 0; i < rotor->nbars; i++)
+        elements += 2 * rotor->bars[i].elements;
     return elements <= ROTOR_MOST_ELEMENTS;
 }
 
-/* Elements twice as many: the error of the mesh is taken out before anything else is blamed. */
+/* Elements twice as many, but for rods, which have modes of their own by their elements: the error of the mesh is taken out
+ * before anything else is blamed. */
 static int refine_mesh(struct pool *pool, struct rotor *rotor)
 {
-    struct segment *segment = POOL_ARRAY(pool, struct segment, rotor->nsegment);
-    if (!segment)
+    rotor->segment = POOL_COPY(pool, rotor->segment, rotor->nsegment, 0);
+    rotor->bars = POOL_COPY(pool, rotor->bars, rotor->nbars, 1);
+    if (!rotor->segment || !rotor->bars)
         return ROTID_ERROR_MEMORY;
-    for (int s = 0; s < rotor->nsegment; s++) {
-        segment[s] = rotor->segment[s];
-        segment[s].elements *= 2;
-    }
-    rotor->segment = segment;
+    for (int s = 0; s < rotor->nsegment; s++)
+        rotor->segment[s].elements *= 2;
+    for (int i = 0; i < rotor->nbars; i++)
+        rotor->bars[i].elements *= 2;
     return ROTID_OK;
 }
 
