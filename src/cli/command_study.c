@@ -119,7 +119,7 @@ int study_conduct(struct command *command, const struct study *study, study_comp
     struct study_record record;
     int code = EXIT_DONE;
     command_watch_signals();
-    int status = record_open(&command->pool, command->output, &header, study->plan->path ? NULL : study->deck,
+    int status = record_open(&command->pool, command->output, &header, study->plan && study->plan->path ? NULL : study->deck,
                              arguments->retry_failed, &command->messages, &record);
     if (status)
         return refuse_study(command, status);

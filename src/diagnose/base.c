@@ -122,7 +122,7 @@ static int can_be_refined(const struct rotor *rotor)
     for (int i = 0; i < rotor->ntierod; i++)
         elements += rotor->tierod[i].elements;
     for (int i = 0; i < rotor->nbars; i++)
-        elements += 2 * rotor->bars[i].elements;
+        elements += 2L * rotor->bars[i].elements;
     return elements <= ROTOR_MOST_ELEMENTS;
 }
 
