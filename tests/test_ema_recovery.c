@@ -59,15 +59,22 @@ POOL_TEST(modes_outside_the_band_leave_the_inner_ones_alone)
     assert_modes(&ema, &truth, 4, 1e-5, 2e-3);
 }
 
+/* Four modes of a beam, the third `ratio` times the second, with noise: lines from 20 Hz in steps. */
+static void measure_close(int points, double damping, double ratio, double step, int nline, unsigned long seed,
+                          struct truth *truth, struct frf_set *set)
+{
+    struct random_stream random = {.state = seed};
+    truth_beam(4, points, 0, 60, damping, truth);
+    truth->frequency_hz[2] = truth->frequency_hz[1] * ratio;
+    truth_measure(&test_pool, truth, FRF_ACCELERATION, 20, step, nline, 1e-3, 1, &random, set);
+}
+
 POOL_TEST(two_modes_half_a_percent_apart)
 {
     struct truth truth;
     struct frf_set set;
     struct ema ema;
-    truth_beam(4, 9, 0, 60, 1e-3, &truth);
-    truth.frequency_hz[2] = truth.frequency_hz[1] * 1.005;
-    struct random_stream random = {.state = 7};
-    truth_measure(&test_pool, &truth, FRF_ACCELERATION, 20, 0.05, 8000, 1e-3, 1, &random, &set);
+    measure_close(9, 1e-3, 1.005, 0.05, 8000, 7, &truth, &set);
     compute(&set, NULL, &ema);
     assert_int_equal(ema.nmode, 3);
     for (int r = 0; r < 3; r++) {
@@ -84,10 +91,7 @@ POOL_TEST(deviations_of_poles_that_are_not_refined_hold_their_error)
     struct truth truth;
     struct frf_set set;
     struct ema ema;
-    truth_beam(4, 8, 0, 60, 3e-3, &truth);
-    truth.frequency_hz[2] = truth.frequency_hz[1] * 1.02;
-    struct random_stream random = {.state = 1};
-    truth_measure(&test_pool, &truth, FRF_ACCELERATION, 20, 0.25, 2400, 1e-3, 1, &random, &set);
+    measure_close(8, 3e-3, 1.02, 0.25, 2400, 1, &truth, &set);
     struct ema_options options = {.no_refinement = 1};
     compute(&set, &options, &ema);
     assert_int_equal(ema.nmode, 4);

@@ -233,6 +233,22 @@ POOL_TEST(shear_of_two_layers_is_that_of_the_flexure_function)
     }
 }
 
+struct radial_point { /* of linear elements along the radius, n in each layer: one of the two of Gauss in element e */
+    struct elasticity c;
+    double r, w;              /* radius, and weight times r */
+    double share[2], rate[2]; /* of the values at both ends over r, and their derivatives */
+};
+
+static struct radial_point radial_point(const double *radius, const struct material *material, int n, int e, int q)
+{
+    double h = (radius[e / n + 1] - radius[e / n]) / n, t = 0.5 + (q ? 1 : -1) / sqrt(12), r = radius[e / n] + (e % n + t) * h;
+    return (struct radial_point){elasticity_of(&material[e / n], &(struct elasticity_factors){1, 1, 1}),
+                                 r,
+                                 r * h / 2,
+                                 {(1 - t) / r, t / r},
+                                 {-1 / h, 1 / h}};
+}
+
 /* EI of layers by linear elements of the motion in the plane, U cos t and V sin t, for the axial strain r cos t: pi times the
  * energy of the strains U', (U + V)/r, r and V' - (U + V)/r with the constants of the solid. The bore is free. */
 static double bending_by_elements(int count, const double *radius, const struct material *material, int n)
@@ -243,11 +259,10 @@ static double bending_by_elements(int count, const double *radius, const struct 
     memset(band, 0, sizeof band);
     memset(right, 0, sizeof right);
     for (int e = 0; e < count * n; e++) {
-        struct elasticity c = elasticity_of(&material[e / n], &(struct elasticity_factors){1, 1, 1});
-        double h = (radius[e / n + 1] - radius[e / n]) / n, from = radius[e / n] + e % n * h;
-        for (int q = -1; q <= 1; q += 2) {
-            double t = 0.5 + q / sqrt(12), r = from + h * t, w = r * h / 2;
-            const double turn[2] = {(1 - t) / r, t / r}, slope[2] = {-1 / h, 1 / h};
+        for (int q = 0; q < 2; q++) {
+            const struct radial_point p = radial_point(radius, material, n, e, q);
+            const struct elasticity c = p.c;
+            const double *turn = p.share, *slope = p.rate, r = p.r, w = p.w;
             double strain[4][3]; /* of U and V at both ends: rr, tt, rt */
             for (int i = 0; i < 4; i++) {
                 double s = i % 2 ? 0 : slope[i / 2], g = i % 2 ? slope[i / 2] : 0;
@@ -287,11 +302,10 @@ static double tension_by_elements(int count, const double *radius, const struct 
     memset(off, 0, sizeof off);
     memset(right, 0, sizeof right);
     for (int e = 0; e < count * n; e++) {
-        struct elasticity c = elasticity_of(&material[e / n], &(struct elasticity_factors){1, 1, 1});
-        double h = (radius[e / n + 1] - radius[e / n]) / n, from = radius[e / n] + e % n * h;
-        for (int q = -1; q <= 1; q += 2) {
-            double t = 0.5 + q / sqrt(12), r = from + h * t, w = r * h / 2;
-            const double rr[2] = {-1 / h, 1 / h}, tt[2] = {(1 - t) / r, t / r};
+        for (int q = 0; q < 2; q++) {
+            const struct radial_point p = radial_point(radius, material, n, e, q);
+            const struct elasticity c = p.c;
+            const double *rr = p.rate, *tt = p.share, w = p.w;
             energy += w * c.c33;
             off[e] += w * (c.c11 * (rr[0] * rr[1] + tt[0] * tt[1]) + c.c12 * (rr[0] * tt[1] + rr[1] * tt[0]));
             for (int i = 0; i < 2; i++) {
