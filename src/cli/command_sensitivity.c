@@ -30,8 +30,7 @@ static int select_listed(struct command *command, const struct job *job, struct 
                                   "%s is no parameter of this deck, expected one of %s", item,
                                   parameter_list(&command->pool, rotor, item));
         for (int k = 0; k < s->n; k++)
-            if (s->parameter[k].kind == s->parameter[s->n].kind && s->parameter[k].index == s->parameter[s->n].index &&
-                s->parameter[k].component == s->parameter[s->n].component)
+            if (parameters_overlap(&s->parameter[k], &s->parameter[s->n]))
                 return message_refuse(&command->messages, ROTID_ERROR_SYNTAX, "--at", 1, (int)(item - list) + 1,
                                       "%s is named twice, expected once", item);
         if (s->parameter[s->n].kind == PARAMETER_G) { /* from here on a modulus of its own */

@@ -100,10 +100,7 @@ static int chi2_left(struct pool *pool, const struct states *solids, const int *
         row += columns.nrow;
     }
     *left = product_dot(scan->nrow, r, r);
-    for (int b = 0; b < scan->nbasis; b++) {
-        double along = product_dot(scan->nrow, scan->basis + (ptrdiff_t)b * scan->nrow, r);
-        *left -= along * along;
-    }
+    *left -= basis_remove(scan->nrow, scan->nbasis, scan->basis, r);
     return ROTID_OK;
 }
 

@@ -5,25 +5,7 @@
 #include <string.h>
 
 #include "diagnose/causes/causes.h"
-
-static double dot(int n, const double *a, const double *b)
-{
-    double sum = 0;
-    for (int i = 0; i < n; i++)
-        sum += a[i] * b[i];
-    return sum;
-}
-
-/* Takes the part along the directions [n * count] out of v. */
-static void project(int n, int count, const double *direction, double *v)
-{
-    for (int q = 0; q < count; q++) {
-        const double *d = direction + (ptrdiff_t)q * n;
-        double along = dot(n, d, v) / dot(n, d, d);
-        for (int i = 0; i < n; i++)
-            v[i] -= along * d[i];
-    }
-}
+#include "linalg/linalg.h"
 
 static int failed(int status)
 {
@@ -59,16 +41,12 @@ static int compare_meshes(struct pool *pool, const struct engine *engine, const 
         double *column = direction + (ptrdiff_t)count * n;
         if ((status = columns_parameter(&here, p, column)))
             return failed(status);
-        double before = dot(n, column, column);
-        project(n, count, direction, column);
-        count += dot(n, column, column) > 1e-12 * before;
+        count = basis_extend(n, count, 1e-6, direction);
     }
     for (int i = 0; i < n; i++)
         change[i] = there.r[i] - here.r[i];
-    double whole = dot(n, change, change);
-    project(n, count, direction, change);
-    error->worth = dot(n, change, change);
-    error->moved = sqrt(fmax(0, whole - error->worth));
+    error->moved = sqrt(basis_remove(n, count, direction, change));
+    error->worth = product_dot(n, change, change);
     return ROTID_OK;
 }
 

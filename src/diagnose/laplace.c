@@ -620,23 +620,57 @@ static void mix_moments(double share, double mean, double square, double *to_mea
     *to_std = sqrt(fmax(0, before + share * (square - before) - *to_mean * *to_mean));
 }
 
-/* ln Z by rows [nrow * (n + 1)], the last column the residual, in units of the n unknowns; the first nown are the deck's, moments
- * of which go to out->mean and out->std in those units. known: what approximations leave of a frequency and of a shape. states,
- * scan: of something else, NULL scan: not asked for. fault [nfault]: the last unknowns. */
-static int evidence_of_rows(const struct evidence_data *d, struct pool *pool, int n, const struct unknown *u, const double *rows,
-                            int nown, const double known[2], const struct states *states, const struct scan *scan, int with_else,
-                            int nfault, struct fault_column *fault, struct evidence *out)
+/* Rows in units of the unknowns; u [n + 1] is filled, extra columns are those of the faults. */
+static void take_rows(const struct evidence_data *d, const rotid_fit_result *fit, int nfault, const struct fault_column *fault,
+                      const struct unknown *u, double *rows)
+{
+    int n = fit->n + nfault, nrow = d->nrow;
+    for (int p = 0; p <= n; p++) {
+        const double *column = p == n ? fit->r : p < fit->n ? fit->jacobian + (ptrdiff_t)p * nrow : fault[p - fit->n].column;
+        for (int i = 0; i < nrow; i++)
+            rows[i + (ptrdiff_t)p * nrow] = p < n ? u[p].step * column[i] : column[i];
+    }
+}
+
+/* What the line at the end of a fit promises and no step along it brought, as where two modes veer, is no evidence: it is taken
+ * out of the residual, the last of rows [nrow * (n + 1)]. *sum: its square, 0 for a fit that ended at a minimum. ROTID_OK or
+ * ROTID_ERROR_MEMORY. */
+static int take_promise(const rotid_fit_result *fit, struct pool *pool, int nrow, int n, double *rows, double *sum)
+{
+    *sum = 0;
+    if (fit->converged)
+        return ROTID_OK;
+    double *basis = POOL_ARRAY(pool, double, (size_t)nrow *(size_t)(fit->n + 1));
+    if (!basis)
+        return ROTID_ERROR_MEMORY;
+    *sum = basis_remove(nrow, basis_add(nrow, fit->n, rows, 1e-10, 0, basis), basis, rows + (ptrdiff_t)n * nrow);
+    return ROTID_OK;
+}
+
+/* ln Z of a fit in units of its unknowns u, those of the fault [nfault] behind them; the first nown are the deck's, moments of
+ * which go to out->mean and out->std in those units. known: what approximations leave of a frequency and of a shape. states,
+ * scan: of something else, NULL scan: not asked for. */
+static int evidence_in_units(const struct evidence_data *d, struct pool *pool, const rotid_fit_result *fit,
+                             const struct unknown *u, int nown, const double known[2], const struct states *states,
+                             const struct scan *scan, int with_else, int nfault, struct fault_column *fault, struct evidence *out)
 {
     struct normal w;
-    int nrow = d->nrow, status = normal_new(pool, n, u, &w);
-    double field;
+    int n = fit->n + nfault, nrow = d->nrow;
+    double field, promise, *rows = POOL_ARRAY(pool, double, (size_t)nrow *(size_t)(n + 1));
+    if (!rows)
+        return ROTID_ERROR_MEMORY;
+    take_rows(d, fit, nfault, fault, u, rows);
+    int status = take_promise(fit, pool, nrow, n, rows, &promise);
+    if (!status)
+        status = normal_new(pool, n, u, &w);
     for (int i = 0; i < nrow && !status; i++)
         gather(1, n, rows + i, nrow, NULL, &w.part[(int)d->kind[i]]);
     if (status)
         return status;
     for (int k = 0; k < EVIDENCE_KINDS; k++)
         mirror(n, w.part[k].normal);
-    out->log_z = integrate_noise(d, &w, &out->log_stated, out->noise);
+    out->log_z = integrate_noise(d, &w, &out->log_stated, out->noise) - promise / 2;
+    out->log_stated -= promise / 2;
     out->log_exact = out->log_stated;
     for (int p = 0; p < nown; p++) {
         out->mean[p] = w.step[p];
@@ -652,6 +686,7 @@ static int evidence_of_rows(const struct evidence_data *d, struct pool *pool, in
         if (!mean)
             return ROTID_ERROR_MEMORY;
         status = with_field(d, pool, n, u, rows, known, 0, nown, &with, &weighed, &field);
+        field -= promise / 2;
         for (int p = 0; p < nown && !status && isfinite(field); p++)
             mix_moments(exp(field - log_sum(out->log_z, field)), with.mean[p], with.std[p], &out->mean[p], &out->std[p]);
         out->log_z = log_sum(out->log_z, field) - LN_2;
@@ -662,59 +697,9 @@ static int evidence_of_rows(const struct evidence_data *d, struct pool *pool, in
         return status;
     memset(out->mean, 0, (size_t)nown * sizeof *out->mean);
     memset(out->std, 0, (size_t)nown * sizeof *out->std);
-    return something_else(d, pool, states, scan, n, u, rows, nown, out);
-}
-
-/* Rows in units of the unknowns; u [n + 1] is filled, extra columns are those of the faults. */
-static void take_rows(const struct evidence_data *d, const rotid_fit_result *fit, int nfault, const struct fault_column *fault,
-                      const struct unknown *u, double *rows)
-{
-    int n = fit->n + nfault, nrow = d->nrow;
-    for (int p = 0; p <= n; p++) {
-        const double *column = p == n ? fit->r : p < fit->n ? fit->jacobian + (ptrdiff_t)p * nrow : fault[p - fit->n].column;
-        for (int i = 0; i < nrow; i++)
-            rows[i + (ptrdiff_t)p * nrow] = p < n ? u[p].step * column[i] : column[i];
-    }
-}
-
-/* a [n] less its part along the unit vector q. Returns that part. */
-static double take_part(int n, const double *q, double *a)
-{
-    double along = product_dot(n, q, a);
-    for (int i = 0; i < n; i++)
-        a[i] -= along * q[i];
-    return along;
-}
-
-/* What the line at the end of a fit promises and no step along it brought, as where two modes veer, is no evidence: it is taken
- * out of the residual r [nrow]. Returns its square; 0 for a fit that ended at a minimum. */
-static double take_promise(const rotid_fit_result *fit, struct pool *pool, int nrow, int n, const double *rows, double *r)
-{
-    double *basis = fit->converged ? NULL : POOL_ARRAY(pool, double, (size_t)nrow *(size_t)n), sum = 0;
-    for (int p = 0, count = 0; p < n && basis; p++) {
-        double *q = basis + (ptrdiff_t)count * nrow;
-        memcpy(q, rows + (ptrdiff_t)p * nrow, (size_t)nrow * sizeof *q);
-        double whole = product_dot(nrow, q, q);
-        for (int k = 0; k < 2 * count; k++) /* twice, for what rounding leaves */
-            (void)take_part(nrow, basis + (ptrdiff_t)(k % count) * nrow, q);
-        double norm = product_dot(nrow, q, q);
-        if (!(norm > 1e-20 * whole))
-            continue;
-        for (int i = 0; i < nrow; i++)
-            q[i] /= sqrt(norm);
-        double along = take_part(nrow, q, r);
-        sum += along * along;
-        count++;
-    }
-    return sum;
-}
-
-static void add_to_all(double more, struct evidence *out)
-{
-    out->log_z += more;
-    out->log_stated += more;
-    out->log_exact += more;
-    out->log_else += more;
+    status = something_else(d, pool, states, scan, n, u, rows, nown, out);
+    out->log_else -= promise / 2;
+    return status;
 }
 
 static struct unknown unknown_of_prior(const struct model_prior *prior, double x)
@@ -729,23 +714,15 @@ int evidence_of_model(const struct evidence_data *d, const struct model_prior *p
 {
     struct pool pool;
     const double known[2] = {0, 0};
-    double promise;
     if (fit->nresidual != d->nrow)
         return ROTID_ERROR_ARGUMENT;
     pool_open(&pool, d->pool->allocator);
     struct unknown *u = POOL_ARRAY(&pool, struct unknown, fit->n + 1);
-    double *rows = POOL_ARRAY(&pool, double, (size_t)d->nrow *(size_t)(fit->n + 1));
-    int status = u && rows ? ROTID_OK : ROTID_ERROR_MEMORY;
+    int status = u ? ROTID_OK : ROTID_ERROR_MEMORY;
     for (int p = 0; p < fit->n && !status; p++)
         u[p] = unknown_of_prior(&prior[p], fit->x[p]);
-    if (!status) {
-        take_rows(d, fit, 0, NULL, u, rows);
-        promise = take_promise(fit, &pool, d->nrow, fit->n, rows, rows + (ptrdiff_t)fit->n * d->nrow);
-        status = pool.out_of_memory
-                     ? ROTID_ERROR_MEMORY
-                     : evidence_of_rows(d, &pool, fit->n, u, rows, nown, known, NULL, NULL, with_else, 0, NULL, out);
-        add_to_all(-promise / 2, out);
-    }
+    if (!status)
+        status = evidence_in_units(d, &pool, fit, u, nown, known, NULL, NULL, with_else, 0, NULL, out);
     for (int p = 0; p < nown && !status; p++) {
         out->mean[p] = fmin(fmax(fit->x[p] + u[p].step * out->mean[p], prior[p].lower), prior[p].upper);
         out->std[p] *= fabs(u[p].step);
@@ -759,13 +736,13 @@ int evidence_of_fit(const struct evidence_data *d, const struct states *states, 
                     const struct scan *else_scan, struct evidence *out)
 {
     struct pool pool;
-    int n = fit->n + nfault, nrow = d->nrow;
-    if (fit->nresidual != nrow)
+    int n = fit->n + nfault;
+    if (fit->nresidual != d->nrow)
         return ROTID_ERROR_ARGUMENT;
     pool_open(&pool, d->pool->allocator);
     struct unknown *u = POOL_ARRAY(&pool, struct unknown, n + 1);
-    double *rows = POOL_ARRAY(&pool, double, (size_t)nrow *(size_t)(n + 1)), known[2] = {0, 0}, promise;
-    int status = !u || !rows ? ROTID_ERROR_MEMORY : ROTID_OK;
+    double known[2] = {0, 0};
+    int status = u ? ROTID_OK : ROTID_ERROR_MEMORY;
     for (int p = 0; p < n && !status; p++) {
         const struct fault_column *f = p < fit->n ? NULL : fault + p - fit->n;
         u[p] = f ? unknown_of_cause(f->cause, f->parameter, f->value, f->lower, f->upper) : unknown_of(states, p, fit->x[p]);
@@ -774,14 +751,8 @@ int evidence_of_fit(const struct evidence_data *d, const struct states *states, 
         known[0] = hypot(known[0], member[m].cause->discrepancy_frequency);
         known[1] = hypot(known[1], member[m].cause->discrepancy_shape);
     }
-    if (!status) {
-        take_rows(d, fit, nfault, fault, u, rows);
-        promise = take_promise(fit, &pool, nrow, fit->n, rows, rows + (ptrdiff_t)n * nrow);
-        status = pool.out_of_memory ? ROTID_ERROR_MEMORY
-                                    : evidence_of_rows(d, &pool, n, u, rows, nown, known, states, else_scan, else_scan != NULL,
-                                                       nfault, fault, out);
-        add_to_all(-promise / 2, out);
-    }
+    if (!status)
+        status = evidence_in_units(d, &pool, fit, u, nown, known, states, else_scan, else_scan != NULL, nfault, fault, out);
     for (int p = 0; p < nown && !status; p++) {
         double x = fit->x[p] + u[p].step * out->mean[p];
         out->mean[p] = fmin(fmax(x, states->bounds[p].lower), states->bounds[p].upper);

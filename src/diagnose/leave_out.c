@@ -193,16 +193,6 @@ static int scale_directions(const struct job *job, const int *holdout, const rot
     return count;
 }
 
-/* Adds the columns of the Jacobian to the `count` of an orthonormal basis; returns how many there are then. */
-static int orthonormalise(int nrow, int n, const double *jacobian, int count, double *basis)
-{
-    for (int p = 0; p < n; p++) {
-        memcpy(basis + (ptrdiff_t)count * nrow, jacobian + (ptrdiff_t)p * nrow, (size_t)nrow * sizeof *basis);
-        count = basis_extend(nrow, count, 1e-10, basis);
-    }
-    return count;
-}
-
 /* What sensors leave when they are not fitted. */
 struct left_out {
     int count;
@@ -277,7 +267,7 @@ int sensor_out(struct pool *pool, const struct states *states, const int *holdou
         rank = scale_directions(job, holdout + mode, fit, row + count_fitted(job, holdout + mode), rank, basis);
         row += fit->state_nresidual[s];
     }
-    rank = orthonormalise(nrow, fit->n, fit->jacobian, rank, basis);
+    rank = basis_add(nrow, fit->n, fit->jacobian, 1e-10, rank, basis);
     for (int s = 0, mode = 0, row = 0; s < states->nstate && !status; mode += states->state[s].job.measurement.nmode, s++) {
         const struct job *job = &states->state[s].job;
         if (job_fits_shapes(job) && count_fitted(job, holdout + mode))

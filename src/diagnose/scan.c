@@ -333,12 +333,7 @@ static int run(struct pool *pool, struct pool *matrices, const struct states *st
     if (status)
         return status;
     scan->dof = n - scan->nbasis;
-    for (int b = 0; b < scan->nbasis; b++) {
-        const double *q = scan->basis + (ptrdiff_t)b * n;
-        double along = product_dot(n, q, scan->r);
-        for (int i = 0; i < n; i++)
-            scan->r[i] -= along * q[i];
-    }
+    (void)basis_remove(n, scan->nbasis, scan->basis, scan->r);
     for (int i = 0; i < scan->nitem; i++) {
         struct scan_item *item = &scan->item[i];
         struct scan_candidate *c = &scan->candidate[item->candidate];

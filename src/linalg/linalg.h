@@ -595,6 +595,12 @@ double product_dot(int n, const double *a, const double *b);
  * `least` of it is left. */
 int basis_extend(int n, int count, double least, double *basis);
 
+/* The same of columns [n * ncolumn], one after the other. Returns how many there are then; room for count + ncolumn. */
+int basis_add(int n, int ncolumn, const double *column, double least, int count, double *basis);
+
+/* v := v - Q Q'v, Q [n * count] orthonormal. Returns |Q'v|^2 of what is taken. */
+double basis_remove(int n, int count, const double *basis, double *v);
+
 /* C [m * n] := A' B, A [k * m], B [k * n]; all sizes >= 1. */
 void product_transposed(int m, int n, int k, const double *a, const double *b, double *c);
 /* C [n * n] := A' A, both triangles, A [k * n]; sizes >= 1. Half the work of product_transposed. */

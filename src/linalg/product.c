@@ -2,6 +2,7 @@
 
 #include <cblas.h>
 #include <math.h>
+#include <string.h>
 
 #include "linalg/machine.h"
 
@@ -24,22 +25,39 @@ double product_dot(int n, const double *a, const double *b)
     return dot(n, a, b);
 }
 
+double basis_remove(int n, int count, const double *basis, double *v)
+{
+    double sum = 0;
+    for (int b = 0; b < count; b++) {
+        const double *q = basis + (ptrdiff_t)b * n;
+        double along = product_dot(n, q, v);
+        for (int i = 0; i < n; i++)
+            v[i] -= along * q[i];
+        sum += along * along;
+    }
+    return sum;
+}
+
 int basis_extend(int n, int count, double least, double *basis)
 {
     double *column = basis + (ptrdiff_t)count * n, raw = sqrt(product_dot(n, column, column));
     for (int pass = 0; pass < 2; pass++)
-        for (int b = 0; b < count; b++) {
-            const double *q = basis + (ptrdiff_t)b * n;
-            double along = product_dot(n, q, column);
-            for (int i = 0; i < n; i++)
-                column[i] -= along * q[i];
-        }
+        (void)basis_remove(n, count, basis, column);
     double left = sqrt(product_dot(n, column, column));
     if (!(left > least * raw))
         return count;
     for (int i = 0; i < n; i++)
         column[i] /= left;
     return count + 1;
+}
+
+int basis_add(int n, int ncolumn, const double *column, double least, int count, double *basis)
+{
+    for (int p = 0; p < ncolumn; p++) {
+        memcpy(basis + (ptrdiff_t)count * n, column + (ptrdiff_t)p * n, (size_t)n * sizeof *basis);
+        count = basis_extend(n, count, least, basis);
+    }
+    return count;
 }
 
 void product_transposed(int m, int n, int k, const double *a, const double *b, double *c)
