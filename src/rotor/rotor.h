@@ -286,6 +286,7 @@ struct parameter {
 #define PARAMETER_NAME 1100 /* as long as a line of a deck */
 const char *parameter_next_name(const char *names, char name[PARAMETER_NAME]);
 
+/* Whether it is a stiffness of a spring. */
 int parameter_is_of_spring(const struct parameter *parameter);
 
 /* Whether it is a value of the material of this group. */
