@@ -297,7 +297,8 @@ UNIT_TEST(requirements_are_judged_as_stated)
             result[i].score.names = i < table[t].count ? table[t].names : 0;
             result[i].score.before = i < table[t].unlisted;
             result[i].score.shapes = i >= table[t].without;
-            result[i].score.accused = i < table[t].accused;
+            result[i].score.accused = 1;
+            result[i].score.channels = i < table[t].accused;
         }
         if (power_requirements(out, 100, result) != table[t].missed)
             fail_msg("row %zu: expected %s", t, table[t].missed ? "a requirement to be missed" : "all to hold");

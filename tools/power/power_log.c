@@ -108,6 +108,7 @@ static const struct {
              {"found", INTEGER, offsetof(struct hidden_score, found), 0},
              {"nset", INTEGER, offsetof(struct hidden_score, nset), 0},
              {"accused", INTEGER, offsetof(struct hidden_score, accused), 0},
+             {"channels", INTEGER, offsetof(struct hidden_score, channels), 0},
              {"drop", NUMBER, offsetof(struct hidden_score, drop), 0},
              {"lesser", NUMBER, offsetof(struct hidden_score, lesser), 0},
              {"before", NUMBER, offsetof(struct hidden_score, before), 0},

@@ -25,6 +25,7 @@ enum {
     FREQUENCIES,
     COVERAGE,
     REFITTED,
+    ACCUSED_ANY,
     CLEARLY_NAMED,
     ANY_WRONG,
     PAIR_SHAPES,
@@ -54,12 +55,13 @@ static const struct {
     [PAIR_WRONG] = {"two effects worth 150 each: wrong name", 1, 0, 0.01},
     [OUTSIDE_NO_NAME] = {"outside the catalogue: no name", 0, 0.90, 1},
     [MIXTURE] = {"95 % intervals of E and G hold the truth", 0, 0.93, 0.97},
-    [ACCUSED] = {"sound data: accused", 1, 0, 0.005},
+    [ACCUSED] = {"sound sensors: accused", 1, 0, 0.005},
     [DIAGNOSED] = {"a diagnosis, and no error", 0, 1, 1},
     [REPORTED] = {"one effect worth 30: reported", 0, 0, 1},
     [FREQUENCIES] = {"one effect worth 150, frequencies alone: the same", 0, 0, 1},
     [COVERAGE] = {"the same of a model that was named right", 0, 0, 1},
     [REFITTED] = {"one effect worth 30: the true cause refitted", 0, 0, 1},
+    [ACCUSED_ANY] = {"sound sensors, numbers or noise: accused", 1, 0, 1},
     [CLEARLY_NAMED] = {"one effect, margin 15: named, or one of two", 0, 0, 1},
     [ANY_WRONG] = {"one effect of any size: wrong name", 1, 0, 1},
     [PAIR_SHAPES] = {"two effects worth 150 each, shapes: both named", 0, 0, 1},
@@ -117,8 +119,10 @@ static void add_case(const struct hidden_score *s, struct power_share share[LINE
             add(&share[line[s->value[v].of]], hidden_covers(&s->value[v]));
         else
             add(&share[OUTSIDE_MIXTURE], hidden_covers(&s->value[v]));
-    if (s->class != HIDDEN_DATA && s->class != HIDDEN_NOISE)
-        add(&share[ACCUSED], s->accused > 0);
+    if (s->class != HIDDEN_DATA && s->class != HIDDEN_NOISE) {
+        add(&share[ACCUSED], s->channels > 0);
+        add(&share[ACCUSED_ANY], s->accused > 0);
+    }
     switch (s->class) {
     case HIDDEN_NOTHING:
         add(&share[s->coloured ? COLOURED_ALARM : FALSE_ALARM], s->outcome != HIDDEN_SILENT);

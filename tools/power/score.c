@@ -244,6 +244,7 @@ static int judge_findings(const struct diagnosis *d, const cJSON *effects, struc
         found |= right;
         if (right || (s->coloured && !strcmp(f->id, "noise_level")))
             continue;
+        s->channels += strcmp(f->id, "noise_level") != 0 && strcmp(f->id, "mode_pairing") != 0;
         if (!s->accused++ && s->class == HIDDEN_DATA)
             snprintf(s->wrong, sizeof s->wrong, "%s", f->id);
     }

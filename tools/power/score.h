@@ -43,6 +43,7 @@ struct hidden_score {
     int truths, found; /* effects that are there; of these named or in the set */
     int nset;          /* members of the ambiguous set, 0 without one */
     int accused;       /* findings about the data that are not true */
+    int channels;      /* of these such about sensors, not about numbers of modes or noise */
     double drop;       /* chi2 of the base model fitted to the data without their noise */
     double lesser;     /* two effects: the smaller drop of each of them alone; NaN elsewhere */
     double before; /* probability of what is listed before the first explanation with the truth in its stated places, 1: none */
