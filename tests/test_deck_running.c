@@ -245,7 +245,7 @@ POOL_TEST(what_is_left_at_the_test_is_left_with_all_of_it)
          "TYPE=hub_stiffness\nshare, 1\n",
          "*DISK, NAME=hub\n0.6, 20\n*CAUSE, NAME=more, TYPE=added_inertia, AT=hub\ninertia, 2\n",
          "*CLAMP, NAME=held, AT=end\n",
-         "*CAUSE, NAME=cord, TYPE=support_rotation\nstiffness, 9e6\nz, 1\n",
+         "*CAUSE, NAME=cord, TYPE=support_rotation\nstiffness, 9e6\nz, 0.6\n",
          "*SENSORS\n1, 1\n*CAUSE, NAME=cell, TYPE=accelerometer_mass, SENSOR=1, MOUNT=FIXED\nmass, 0.2\n",
          ""},
                              *const gone[6] = {"f, held, hub", "f, hub", "f, held", "ALL", "ALL", "f"};

@@ -238,6 +238,7 @@ UNIT_TEST(a_cause_is_in_one_of_two_states_beside_one_held_out_of_another_length)
 /* The extended deck, with all states in it, is fitted as the diagnosis fitted it. */
 static void assert_extended(const rotid_diagnosis *d)
 {
+    const rotid_identification *meant = d->extended ? d->extended : d->base;
     char failure[ROTID_FAILURE_LENGTH];
     rotid_deck *deck;
     rotid_identification *again;
@@ -246,12 +247,28 @@ static void assert_extended(const rotid_diagnosis *d)
     assert_non_null(d->extended_deck);
     assert_status(rotid_deck_read_text(strlen(d->extended_deck), d->extended_deck, NULL, NULL, 0, NULL, NULL, failure, &deck),
                   ROTID_OK);
-    assert_int_equal(deck->nstate, d->extended->nstates);
+    assert_int_equal(deck->nstate, meant->nstates);
     assert_status(rotid_identify(deck, 0, NULL, failure, &again), ROTID_OK);
-    assert_int_equal(again->nparameters, d->extended->nparameters);
-    assert_close(again->chi2, d->extended->chi2, 1e-6, 0);
-    assert_close(again->parameters[0].value, d->extended->parameters[0].value, 1e-5, 0);
+    assert_int_equal(again->nparameters, meant->nparameters);
+    assert_close(again->chi2, meant->chi2, 1e-6, 0);
+    assert_close(again->parameters[0].value, meant->parameters[0].value, 1e-5, 0);
     rotid_identification_free(again);
+    rotid_deck_free(deck);
+}
+
+/* Two of the states need elements four times as many, the third one eight times: one deck states one mesh, and the diagnosis has
+ * the same. */
+UNIT_TEST(states_share_the_mesh_that_one_of_them_needs)
+{
+    const rotid_diagnose_options options = {.size = sizeof options, .threads = 2};
+    char failure[ROTID_FAILURE_LENGTH] = "";
+    rotid_deck *deck;
+    rotid_diagnosis *d;
+    assert_status(rotid_deck_read(ROTID_SOURCE_DIR "/tests/data/search/three_states.inp", 0, NULL, NULL, failure, &deck), ROTID_OK);
+    assert_status(rotid_diagnose(deck, &options, NULL, failure, &d), ROTID_OK);
+    assert_non_null(strstr(d->extended_deck, "\nthe mesh is refined: 336 elements in place of 42"));
+    assert_extended(d);
+    rotid_diagnosis_free(d);
     rotid_deck_free(deck);
 }
 

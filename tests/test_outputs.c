@@ -140,6 +140,8 @@ POOL_TEST(a_diagnosis_says_that_it_refines_the_mesh_and_what_chance_does)
     const char *words = shell(&test_pool, "tr -s ' \n' '  ' < %s/fine.inp", folder);
     assert_non_null(strstr(words, "The probability that nothing is wrong and chance did this is "));
     (void)shell(&test_pool, ROTID "check fine.inp", folder);
+    said = shell(&test_pool, ROTID "diagnose fine.inp --extended again.inp 2>&1", folder);
+    assert_null(strstr(said, "again.inp: the mesh is refined")); /* which the heading of fine.inp says of that one */
     said = shell(&test_pool, ROTID "diagnose " INPUT "/paper_rotor.inp --quiet --extended same.inp 2>&1; true", folder);
     assert_null(strstr(said, "refined")); /* --quiet */
 }

@@ -164,6 +164,38 @@ POOL_TEST(a_smooth_solid_that_is_soft_in_shear_leaves_more)
     }
 }
 
+/* A narrow thin ring turns over as a whole, w^2 = (G J + E I)/(rho I_p R^2), and its section twists: elements across the section
+ * are of its size, not of that of the radius. Reference: elements of order 12 of a program of its own in numpy, the same with order
+ * 8; the mean radius of the first one is 24 times its width, and what the thin ring leaves out 0.1 %. */
+POOL_TEST(a_ring_turns_over_and_its_section_twists)
+{
+    static const struct {
+        double length, wall, hz[4];
+    } ring[] = {{0.0041, 0.021, {494.284, 2377.61, 46009.9, 76422.7}},
+                {0.005, 0.01, {1066.38, 2351.68, 160406, 175220}},
+                {0.005, 0.005, {1502.38, 2339.97, 320771, 320777}},
+                {0.0029, 0.1038, {83.4034, 1506.93, 2577.10, 4110.66}}};
+    for (int i = 0; i < 4; i++) {
+        double l = ring[i].length, t = ring[i].wall, e = 2.1e11, g = e / 2.6, rho = 7850, radius = 0.5 - t / 2;
+        struct rig b;
+        struct spectrum s;
+        rig_begin(&b, 1);
+        b.group[0].material = (struct material){.isotropic = 1, .e = e, .nu = 0.3, .rho = rho};
+        rig_section(&b, 0, l, 1);
+        b.segment[0].inner = 1 - 2 * t;
+        assert_status(spectrum_compute_parts(&test_pool, models_as(&test_pool, AS_SOLID), &b.rotor, 0, NULL, NULL, ROTID_GUYAN, 4,
+                                             SPECTRUM_MESH, &s),
+                      ROTID_OK);
+        assert_hz(4, s.full_hz, ring[i].hz, 4e-4);
+        for (int j = 0; j < 4; j++)
+            assert_true(fabs(100 * (s.full_hz[j] / ring[i].hz[j] - 1)) < 3 * s.mesh_error_percent[j] + 1e-3);
+        double torsion = l * l * l * t * (1. / 3 - 0.21 * l / t * (1 - pow(l / t, 4) / 12)), polar = l * t * (l * l + t * t) / 12;
+        double turning = sqrt((g * torsion + e * t * l * l * l / 12) / (rho * polar)) / (2 * PI * radius);
+        if (i == 0)
+            assert_close(s.full_hz[0], turning, 1e-3, 0);
+    }
+}
+
 /* Elements of the second order lock where the volume hardly changes: a disc of rubber. Reference: elements of order 12 of a
  * program of its own in numpy, the same to all digits with order 10. */
 POOL_TEST(a_disc_of_rubber_leaves_more_too)

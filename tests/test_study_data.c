@@ -208,6 +208,29 @@ POOL_TEST(a_shared_truth_is_that_of_every_group)
     }
 }
 
+/* A solver returns an eigenvector with either sign, by its last digits: the data of nearly one rotor have one sign, and the same
+ * noise then leaves the same misfit. */
+POOL_TEST(nearly_one_rotor_has_the_same_replicates)
+{
+    double objective = NAN;
+    for (int i = 0; i < 4; i++) {
+        (void)bench_write("near.inp", pool_format(&test_pool,
+                                                  "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n%.10f\n*SHAFT, NAME=core, "
+                                                  "MATERIAL=steel\n1.0, 0.1, 0, 20\n0.5, 0.15, 0, 10\n*SENSORS\n1, 0.1\n2, 0.5\n3, 0.9"
+                                                  "\n4, 1.3\n*MODES\n1, 100\n2, 200\n3, 300\n*IDENTIFY\ncore.E, 1e10, 1e12, 2e11\n"
+                                                  "core.G, 1e10, 1e12, 8e10\n",
+                                                  7850 + 1e-7 * i));
+        open_study("*STUDY\n*DECKS\nnear.inp\n*DATA, SOURCE=MODEL\n*NOISE\n0.001, 0.02\n");
+        cJSON *result = bench_result(&study, 0);
+        double found = number_of(result, "objective");
+        if (i)
+            assert_close(found, objective, 1e-6, 0);
+        objective = found;
+        cJSON_Delete(result);
+        jobs_close(&jobs);
+    }
+}
+
 /* As what is hidden in it is. */
 POOL_TEST(a_truth_is_in_the_units_of_the_deck)
 {

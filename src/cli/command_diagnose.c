@@ -10,9 +10,11 @@ static int write_extended(struct command *command, const rotid_diagnosis *diagno
         return terminal_end(code, "rotid: %s is not written: there is no verdict yet\n", command->extended);
     if (!diagnosis->extended_deck)
         return terminal_end(EXIT_INTERNAL, "rotid: cannot write %s: no deck reads as this model\n", command->extended);
-    const char *refined = strstr(diagnosis->extended_deck, DECK_MESH_REFINED);
-    if (refined && !command->quiet)
-        terminal_say("rotid: %s: %.*s\n", command->extended, (int)strcspn(refined, "\r\n"), refined);
+    const char *next = NULL; /* of the last one: those before are of the deck that was read */
+    for (const char *at = diagnosis->extended_deck; (at = strstr(at, "\n" DECK_EXTENDED_FROM));)
+        next = at = at + 1 + strcspn(at + 1, "\n");
+    if (next && *next && !strncmp(next + 1, DECK_MESH_REFINED, strlen(DECK_MESH_REFINED)) && !command->quiet)
+        terminal_say("rotid: %s: %.*s\n", command->extended, (int)strcspn(next + 1, "\r\n"), next + 1);
     return command_write_deck(command, diagnosis->extended_deck, code);
 }
 

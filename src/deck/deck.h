@@ -557,7 +557,8 @@ int deck_write(struct pool *pool, const struct states *given, const struct state
 
 /* deck_write of a diagnosis that has a verdict (sentence): what was named, the base model where nothing was, the moduli at their
  * fitted values, the verdict in the heading. */
-#define DECK_MESH_REFINED "the mesh is refined: " /* begins the line of its heading that says so */
+#define DECK_EXTENDED_FROM "rotid " ROTID_VERSION " from " /* begins its heading, */
+#define DECK_MESH_REFINED  "the mesh is refined: "        /* and this the line behind it where that is so */
 int deck_write_extended(struct pool *pool, const struct diagnosis *diagnosis, struct message_list *notes, char **text);
 
 /* The text of deck_write for the file `to`: the paths of files in the folder of the deck `from` are relative where `to` lies

@@ -20,26 +20,26 @@ static int extended_states(struct pool *pool, const struct diagnosis *d, struct 
 
 int deck_write_extended(struct pool *pool, const struct diagnosis *d, struct message_list *notes, char **text)
 {
-    int lines = 2 + d->nalternative, from = (int)rotor_elements(&d->given.state->job.rotor), to;
-    const char **extra = POOL_ARRAY(pool, const char *, lines + 1);
+    int lines = 1, from = (int)rotor_elements(&d->given.state->job.rotor), to;
+    const char **extra = POOL_ARRAY(pool, const char *, 3 + d->nalternative);
     struct deck_write_options options = {.extra = extra};
     struct states states;
     *text = NULL;
     int status = extra ? extended_states(pool, d, &states, &options.x) : ROTID_ERROR_MEMORY;
     if (status)
         return status;
-    extra[0] = pool_format(pool, "rotid %s from %s, verdict %s", ROTID_VERSION, d->given.state->job.deck,
+    extra[0] = pool_format(pool, DECK_EXTENDED_FROM "%s, verdict %s", d->given.state->job.deck,
                            rotid_verdict_name(d->result.verdict.kind));
-    extra[1] = d->result.verdict.sentence;
-    for (int i = 0; i < d->nalternative; i++) {
-        const struct candidate *other = &d->alternative[i];
-        const char *word = i && other->set && other->set == other[-1].set ? "together with" : "cannot be told apart:";
-        extra[2 + i] = pool_format(pool, "%s %s%s%s", word, other->cause->id, other->target && *other->target ? " " : "",
-                                   other->target ? other->target : "");
-    }
     to = (int)rotor_elements(&states.state->job.rotor);
     if (to > from)
         extra[lines++] = pool_format(pool, DECK_MESH_REFINED "%d elements in place of %d, as the noise asks for", to, from);
+    extra[lines++] = d->result.verdict.sentence;
+    for (int i = 0; i < d->nalternative; i++) {
+        const struct candidate *other = &d->alternative[i];
+        const char *word = i && other->set && other->set == other[-1].set ? "together with" : "cannot be told apart:";
+        extra[lines++] = pool_format(pool, "%s %s%s%s", word, other->cause->id, other->target && *other->target ? " " : "",
+                                   other->target ? other->target : "");
+    }
     for (int i = 0; i < lines; i++)
         if (!extra[i])
             return ROTID_ERROR_MEMORY;

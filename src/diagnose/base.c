@@ -435,11 +435,19 @@ int base_refine_beside(struct engine *engine, const struct job *job, const doubl
     return *changed && !status ? note_mesh(engine, 0, 0, &first) : status;
 }
 
-int base_refine(struct pool *pool, struct job *job, const int *number, const struct spectrum *spectrum)
+int base_halvings(const struct job *job, const int *number, const struct spectrum *spectrum)
 {
-    int at, status = ROTID_OK;
+    int at, count = 0;
     double ratio = job->options.solid ? 0 : against_noise(job, number, spectrum->mesh_error_percent, spectrum->count, &at);
-    for (int pass = 0; pass < MOST_REFINED && ratio > NEGLIGIBLE && !status && can_be_refined(&job->rotor); pass++, ratio /= 4)
+    for (; count < MOST_REFINED && ratio > NEGLIGIBLE; count++)
+        ratio /= 4;
+    return count;
+}
+
+int base_refine(struct pool *pool, struct job *job, int halvings)
+{
+    int status = ROTID_OK;
+    for (int pass = 0; pass < halvings && !status && can_be_refined(&job->rotor); pass++)
         status = refine_mesh(pool, &job->rotor);
     return status;
 }

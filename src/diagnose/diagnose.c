@@ -146,7 +146,7 @@ static int fit_before(struct pool *pool, const struct state *before, const struc
         status = fit_paired(pool, job, before->name, environment, notes, &quiet, found);
     const struct segment *coarse = job->rotor.segment;
     if (!status && found->fit->status != ROTID_STOP_CANCELLED)
-        status = base_refine(pool, job, found->compared.number, &found->spectrum);
+        status = base_refine(pool, job, base_halvings(job, found->compared.number, &found->spectrum));
     if (!status && job->rotor.segment != coarse) {
         rotid_fit_free(found->fit);
         found->fit = NULL;

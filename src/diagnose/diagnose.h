@@ -366,7 +366,6 @@ struct engine {
     int *number, *holdout;              /* of the modes of all states */
     int nprepared;                      /* findings of the data before a model was looked at */
     int dropped;                        /* modes that nobody's shape fits and that were left out */
-    int exchanged;                      /* the shapes of which measured mode, from 1, and the next one change places; 0: none */
     struct job_measurement measured;    /* with them, where there are any */
     int *by_shape, numbered;            /* the pairs in whose place the deck's numbers were tried, NULL: not yet; being tried */
     double best_by_shape;               /* ln P of the likeliest explanation with them */
@@ -537,9 +536,11 @@ int base_identify(struct engine *engine, const struct states *states, struct mes
 int base_prepare(struct engine *engine);
 /* Once more with the residuals, the data having changed. */
 int base_again(struct engine *engine);
-/* Elements of a job until the error of its mesh, which the spectrum states, is negligible beside the noise: what is too small to
- * be a cause still moves a modulus by part of its interval. */
-int base_refine(struct pool *pool, struct job *job, const int *number, const struct spectrum *spectrum);
+/* How often the elements of a job are to be halved until the error of its mesh, which the spectrum states, is negligible beside
+ * the noise: what is too small to be a cause still moves a modulus by part of its interval. */
+int base_halvings(const struct job *job, const int *number, const struct spectrum *spectrum);
+/* Halves them so often, or until they are as many as a rotor may have. */
+int base_refine(struct pool *pool, struct job *job, int halvings);
 /* Elements of the base as many as a job with causes at x needs, which may vary faster along the rotor than any of its sections:
  * where twice as many would change its chi2 by more than the noise does. *changed: more are there. */
 int base_refine_beside(struct engine *engine, const struct job *job, const double *x, int *changed);

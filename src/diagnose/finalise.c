@@ -364,10 +364,14 @@ static int same_fit(const rotid_fit_result *a, const rotid_fit_result *b)
 static int refine_base(struct engine *engine)
 {
     struct diagnosis *out = engine->out;
-    int status = ROTID_OK, finer_mesh = 0;
-    for (int s = 0, mode = 0; s < out->judged.nstate && !status; mode += out->judged.state[s].job.measurement.nmode, s++) {
+    int status = ROTID_OK, finer_mesh = 0, halvings = 0; /* as the state asks that needs most: a deck states one mesh */
+    for (int s = 0, mode = 0; s < out->judged.nstate; mode += out->judged.state[s].job.measurement.nmode, s++) {
+        int own = base_halvings(&out->judged.state[s].job, engine->number + mode, &out->state_base[s].spectrum);
+        halvings = own > halvings ? own : halvings;
+    }
+    for (int s = 0; s < out->judged.nstate && !status; s++) {
         struct job *job = &out->judged.state[s].job;
-        status = base_refine(engine->pool, job, engine->number + mode, &out->state_base[s].spectrum);
+        status = base_refine(engine->pool, job, halvings);
         finer_mesh |= job->rotor.segment != engine->states.state[s].job.rotor.segment;
     }
     if (status || !finer_mesh)

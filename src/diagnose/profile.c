@@ -49,14 +49,17 @@ static double value_of(const struct profile *profile, double t)
     return profile->logarithmic ? exp(t) : t;
 }
 
-/* The node nearest to t; there is one. */
+/* The node nearest to t; there is one. Of two as near, as beside the middle of a stretch, the likelier one: rounding does not
+ * decide where a fit begins. */
 static int nearest(const struct profile *profile, double t)
 {
     const struct node *node = profile->node;
     int at = 0;
-    for (int i = 1; i < profile->count; i++)
-        if (fabs(node[i].t - t) < fabs(node[at].t - t))
+    for (int i = 1; i < profile->count; i++) {
+        double apart = fabs(node[i].t - t), least = fabs(node[at].t - t), tie = SAME * (profile->upper - profile->lower);
+        if (apart < least - tie || (apart < least + tie && node[i].log_z > node[at].log_z))
             at = i;
+    }
     return at;
 }
 
@@ -64,7 +67,8 @@ static int nearest(const struct profile *profile, double t)
 static const double *start_for(const struct profile *profile, double t)
 {
     int at = profile->count ? nearest(profile, t) : -1;
-    return at < 0 || fabs(profile->best - t) <= fabs(profile->node[at].t - t) ? profile->c->fit->x : profile->node[at].x;
+    double tie = SAME * (profile->upper - profile->lower);
+    return at < 0 || fabs(profile->best - t) <= fabs(profile->node[at].t - t) + tie ? profile->c->fit->x : profile->node[at].x;
 }
 
 /* The fit at t among the nodes. */

@@ -219,6 +219,16 @@ static double refined(const struct rotor *rotor, int refine, int along, double s
     return refine ? size / sqrt(refine) : halved ? 2 * size : size;
 }
 
+/* A ring without corners turns over and twists: of its section, b by a >= b, elements of at most a sixteenth of a, or of b where
+ * that is less, since the torsion of a strip turns round within b of its edges, but no more than 64 on a, and four on b. */
+static double ring_size(const struct rotor *rotor)
+{
+    double wall = outline_outer(rotor, 0) - outline_inner(rotor, 0), length = rotor_length(rotor);
+    double a = fmax(wall, length), b = fmin(wall, length);
+    return outline_inner(rotor, 0) > 0 && !outline_has_corners(rotor) ? fmax(b / 4, fmin(a / 16, fmax(b, a / 64)))
+                                                                      : (double)INFINITY;
+}
+
 /* Of a body of this radius and length: a quarter of the shorter of length and radius, and a fiftieth of the longer one, in both
  * directions; across the shorter one of a body that is much longer than wide, or wider than long, up to a quarter of the elements
  * along the other: thinner ones add nothing to the accuracy and rounding to K. */
@@ -228,8 +238,8 @@ static double largest_size(const struct rotor *rotor, const struct solid_rule *r
     double extent[2] = {radius, length}, size[2];
     for (int i = 0; i < 2; i++)
         size[i] = fmax(fmin(extent[0], extent[1]) / LARGEST, fmin(extent[i] / SLICES, LONGEST * fmin(extent[0], extent[1])));
-    double largest = rule->largest > 0 ? rule->largest : fmax(size[along], fmin(extent[along], size[!along] / LARGEST));
-    return refined(rotor, refine, along, largest);
+    double largest = fmin(fmax(size[along], fmin(extent[along], size[!along] / LARGEST)), ring_size(rotor));
+    return refined(rotor, refine, along, rule->largest > 0 ? rule->largest : largest);
 }
 
 /* Along section s: as a shaft, which bends in shorter waves where it is slender than the body beside it; and of a thin wall half

@@ -361,17 +361,20 @@ static int solve_moving(struct pool *pool, struct models *models, const struct r
 static void take_mode(const struct job *source, const struct modes *modes, int k, struct job *job)
 {
     const double *made = modes->shape + (ptrdiff_t)(job->measurement.number[k] - 1) * modes->nsensor;
-    double largest = 0;
+    double largest = 0, sign = 1;
     job->measurement.frequency_hz[k] = modes->hz[job->measurement.number[k] - 1];
     if (!job->measurement.shape)
         return;
     double *shape = job->measurement.shape + (ptrdiff_t)k * job->rotor.nsensor;
     for (int s = 0; s < modes->nsensor; s++)
         largest = fmax(largest, fabs(made[s]));
+    for (int s = modes->nsensor - 1; s >= 0; s--) /* the first sensor that moves by half of that decides the sign, which no solver states */
+        if (fabs(made[s]) >= largest / 2)
+            sign = made[s] < 0 ? -1 : 1;
     for (int s = 0; s < job->rotor.nsensor; s++) {
         int there = sensor_find(source, job->rotor.sensor[s].id);
         if (isfinite(shape[s]))
-            shape[s] = there >= 0 && largest > 0 ? made[there] / largest : NAN;
+            shape[s] = there >= 0 && largest > 0 ? sign * made[there] / largest : NAN;
     }
 }
 

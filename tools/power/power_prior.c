@@ -211,7 +211,7 @@ static int predict(struct drawing *d)
     }
     int status = job_spectrum(d->pool, &d->job, d->x, nmode, SPECTRUM_MESH, &s);
     if (!status)
-        status = base_refine(d->pool, &d->job, m->number, &s);
+        status = base_refine(d->pool, &d->job, base_halvings(&d->job, m->number, &s));
     if (!status && !d->job.options.solid)
         status = job_spectrum(d->pool, &d->job, d->x, nmode, 0, &s);
     if (status || s.count < nmode)
