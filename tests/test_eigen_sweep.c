@@ -157,6 +157,55 @@ POOL_TEST(a_dense_spectrum_converges)
     solve_stated(*state, 2400, 1, 12, DENSE, 1e3, 1);
 }
 
+/* Half as many elements of rank one as rows, and springs between far rows: half of the eigenvalues are zero, which a shift just below
+ * zero tells from 1e-8 of the highest one by its last digits alone. K x - lambda M x of all pairs, over the root of the mass. */
+POOL_TEST(pairs_at_zero_leave_nothing)
+{
+    struct random_stream stream = {11};
+    for (int i = 0; i < 60; i++) {
+        int n = 60 + i, far[6], dof[13], count = 9 * n / 20;
+        rotid_matrix k = {.n = n, .kd = 12, .nfar = 6, .far = far, .band = numbers(*state, (ptrdiff_t)n * 13)}, m = k;
+        k.block = numbers(*state, 36);
+        m.block = numbers(*state, 36);
+        m.band = numbers(*state, (ptrdiff_t)n * 13);
+        double *scale = numbers(*state, n), *lambda = numbers(*state, count), *phi = numbers(*state, (ptrdiff_t)n * count),
+               *kx = numbers(*state, n), *mx = numbers(*state, n), largest = 0;
+        for (int f = 0; f < 6; f++)
+            far[f] = (2 * f + 1) * n / 12;
+        for (int r = 0; r < n; r++) {
+            scale[r] = pow(10, 1.5 * random_normal(&stream));
+            assert_status(rotid_matrix_add(&m, r, r, scale[r] * scale[r], NULL), ROTID_OK);
+        }
+        for (int e = 0; e < n / 2 + 6; e++) {
+            double x[13], element[169];
+            int nd = e < n / 2 ? 1 + (int)(fabs(random_normal(&stream)) * 5) % 13 : 2,
+                top = (int)(fabs(random_normal(&stream)) * 1e6) % (n - nd + 1);
+            for (int r = 0; r < nd; r++) {
+                dof[r] = e < n / 2 ? top + r : far[(e - n / 2 + r) % 6];
+                x[r] = (e < n / 2 ? random_normal(&stream) * (e % 10 ? 1 : 30) : 1 - 2 * r) * scale[dof[r]];
+            }
+            for (int r = 0; r < nd * nd; r++)
+                element[r] = x[r % nd] * x[r / nd];
+            assert_status(rotid_matrix_add_element(&k, nd, dof, element, NULL), ROTID_OK);
+        }
+        for (int r = 0; r < n; r++) {
+            memset(kx, 0, (size_t)n * sizeof *kx);
+            kx[r] = 1;
+            assert_status(rotid_matrix_multiply(&k, 1, kx, mx, NULL), ROTID_OK);
+            largest = fmax(largest, mx[r] / (scale[r] * scale[r]));
+        }
+        assert_status(rotid_eigenpairs(&k, &m, count, NULL, NULL, lambda, phi), ROTID_OK);
+        for (int j = 0; j < count; j++) {
+            double square = 0;
+            assert_status(rotid_matrix_multiply(&k, 1, phi + (ptrdiff_t)j * n, kx, NULL), ROTID_OK);
+            assert_status(rotid_matrix_multiply(&m, 1, phi + (ptrdiff_t)j * n, mx, NULL), ROTID_OK);
+            for (int r = 0; r < n; r++)
+                square += pow((kx[r] - lambda[j] * mx[r]) / scale[r], 2);
+            assert_true(sqrt(square) < 1e-9 * largest);
+        }
+    }
+}
+
 POOL_TEST(no_stiffness_has_pairs_at_zero)
 {
     solve_stated(*state, 1, 0, 1, ALL_EQUAL, 0, 1);

@@ -59,7 +59,7 @@ double shift_of(int known, const double *value, double largest)
 }
 
 /* A_ii; *f is the first far degree of freedom that is not below i */
-static double diagonal_of(const rotid_matrix *a, int i, int *f)
+double diagonal_of(const rotid_matrix *a, int i, int *f)
 {
     double value = a->band[(ptrdiff_t)i * (a->kd + 1)];
     while (*f < a->nfar && a->far[*f] < i)

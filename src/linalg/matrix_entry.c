@@ -1,9 +1,33 @@
 /* Matrices of a host: entries where its structure has a place for them, the dense matrix they stand for, products. */
+#include <float.h>
 #include <math.h>
 
 #include "linalg/linalg.h"
 
 /* The lowest eigenpairs of a host's matrices. */
+
+#define LOW      0.01 /* of the highest eigenvalue, */
+#define AS_PAIRS 1000 /* times rows and rounding of it: the residual of those below */
+
+/* Whether K x - lambda M x of low pairs is rounding, each row over the root of its mass: an iteration with a shift far below many
+ * eigenvalues that are zero takes what is 1e-8 of the highest one for one of them. */
+static int are_pairs(struct pool *pool, const rotid_matrix *k, const rotid_matrix *m, int count, const double *lambda,
+                     const double *phi)
+{
+    double highest = highest_of(k, m), *kx = POOL_ARRAY(pool, double, k->n), *mx = POOL_ARRAY(pool, double, k->n);
+    int good = kx && mx;
+    for (int j = 0; j < count && good && lambda[j] < LOW * highest; j++) {
+        double square = 0;
+        matrix_multiply(k, 1, phi + (ptrdiff_t)j * k->n, kx);
+        matrix_multiply(m, 1, phi + (ptrdiff_t)j * k->n, mx);
+        for (int i = 0, f = 0; i < k->n; i++) {
+            double rest = kx[i] - lambda[j] * mx[i];
+            square += rest / diagonal_of(m, i, &f) * rest;
+        }
+        good = sqrt(square) <= AS_PAIRS * k->n * DBL_EPSILON * highest;
+    }
+    return good;
+}
 
 static int solve(struct pool *pool, const rotid_matrix *k, const rotid_matrix *m, int count, double *lambda, double *phi)
 {
@@ -11,6 +35,8 @@ static int solve(struct pool *pool, const rotid_matrix *k, const rotid_matrix *m
     int status = eigen_full_new(pool, k, count, &e);
     if (!status)
         status = eigen_full_solve(&e, k, m, lambda, phi);
+    if (!status && !e.dense && !are_pairs(pool, k, m, count, lambda, phi))
+        status = pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_ERROR_EIGEN;
     /* The block iteration cannot count eigenvalues where more are equal than it has vectors. The dense solver does not mind. */
     if ((status != ROTID_ERROR_STIFFNESS && status != ROTID_ERROR_EIGEN) || e.dense || k->n > EIGEN_DENSE_MOST)
         return status;
