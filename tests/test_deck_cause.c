@@ -171,6 +171,31 @@ UNIT_TEST(a_cause_that_changes_nothing_is_warned_about)
     pool_close(&r.pool);
 }
 
+/* One shaft written as one, three and twenty sections: the first mode is 0.09 % low, 0.13 % high, and right where the box ends
+ * with its sections, and the column mesh says 0.02 % at most. */
+UNIT_TEST(a_box_that_ends_inside_a_section_of_a_solid_is_warned_about)
+{
+    static const struct {
+        const char *shaft, *rest;
+        int warned;
+    } table[] = {{"1, 0.1\n", "*FIT, MODEL=SOLID\n", 1},
+                 {"0.45, 0.1\n0.1, 0.1\n0.45, 0.1\n", "*FIT, MODEL=SOLID\n", 0},
+                 {"1, 0.1, 0, 10\n", "", 0}};
+    for (int i = 0; i < 3; i++) {
+        struct reading r;
+        read_text(&r,
+                  pool_format(
+                      &test_pool,
+                      "*MATERIAL, NAME=m\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=s, MATERIAL=m\n%s%s*CAUSE, NAME=c, "
+                      "TYPE=stiffness_local, SHAPE=BOX\ndepth, 0.6\nz, 0.5\nwidth, 0.1\n",
+                      table[i].shaft, table[i].rest),
+                  NULL);
+        assert_int_equal(r.job.rotor.neffect, 1);
+        assert_int_equal(warns(&r.messages, "this zone ends inside a section"), table[i].warned);
+        pool_close(&r.pool);
+    }
+}
+
 /* ------------------------------------------------------------------------------------------------ faults of the data */
 
 #define SENSORS 6

@@ -264,7 +264,8 @@ UNIT_TEST(states_share_the_mesh_that_one_of_them_needs)
     char failure[ROTID_FAILURE_LENGTH] = "";
     rotid_deck *deck;
     rotid_diagnosis *d;
-    assert_status(rotid_deck_read(ROTID_SOURCE_DIR "/tests/data/search/three_states.inp", 0, NULL, NULL, failure, &deck), ROTID_OK);
+    assert_status(rotid_deck_read(ROTID_SOURCE_DIR "/tests/data/search/three_states.inp", 0, NULL, NULL, failure, &deck),
+                  ROTID_OK);
     assert_status(rotid_diagnose(deck, &options, NULL, failure, &d), ROTID_OK);
     assert_non_null(strstr(d->extended_deck, "\nthe mesh is refined: 336 elements in place of 42"));
     assert_extended(d);

@@ -157,8 +157,9 @@ POOL_TEST(a_dense_spectrum_converges)
     solve_stated(*state, 2400, 1, 12, DENSE, 1e3, 1);
 }
 
-/* Half as many elements of rank one as rows, and springs between far rows: half of the eigenvalues are zero, which a shift just below
- * zero tells from 1e-8 of the highest one by its last digits alone. K x - lambda M x of all pairs, over the root of the mass. */
+/* Half as many elements of rank one as rows, and springs between far rows: half of the eigenvalues are zero, which a shift just
+ * below zero tells from 1e-8 of the highest one by its last digits alone. K x - lambda M x of all pairs, over the root of the
+ * mass. */
 POOL_TEST(pairs_at_zero_leave_nothing)
 {
     struct random_stream stream = {11};

@@ -165,8 +165,8 @@ POOL_TEST(a_smooth_solid_that_is_soft_in_shear_leaves_more)
 }
 
 /* A narrow thin ring turns over as a whole, w^2 = (G J + E I)/(rho I_p R^2), and its section twists: elements across the section
- * are of its size, not of that of the radius. Reference: elements of order 12 of a program of its own in numpy, the same with order
- * 8; the mean radius of the first one is 24 times its width, and what the thin ring leaves out 0.1 %. */
+ * are of its size, not of that of the radius. Reference: elements of order 12 of a program of its own in numpy, the same with
+ * order 8; the mean radius of the first one is 24 times its width, and what the thin ring leaves out 0.1 %. */
 POOL_TEST(a_ring_turns_over_and_its_section_twists)
 {
     static const struct {

@@ -214,12 +214,13 @@ POOL_TEST(nearly_one_rotor_has_the_same_replicates)
 {
     double objective = NAN;
     for (int i = 0; i < 4; i++) {
-        (void)bench_write("near.inp", pool_format(&test_pool,
-                                                  "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n%.10f\n*SHAFT, NAME=core, "
-                                                  "MATERIAL=steel\n1.0, 0.1, 0, 20\n0.5, 0.15, 0, 10\n*SENSORS\n1, 0.1\n2, 0.5\n3, 0.9"
-                                                  "\n4, 1.3\n*MODES\n1, 100\n2, 200\n3, 300\n*IDENTIFY\ncore.E, 1e10, 1e12, 2e11\n"
-                                                  "core.G, 1e10, 1e12, 8e10\n",
-                                                  7850 + 1e-7 * i));
+        (void)bench_write("near.inp",
+                          pool_format(&test_pool,
+                                      "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n%.10f\n*SHAFT, NAME=core, "
+                                      "MATERIAL=steel\n1.0, 0.1, 0, 20\n0.5, 0.15, 0, 10\n*SENSORS\n1, 0.1\n2, 0.5\n3, 0.9"
+                                      "\n4, 1.3\n*MODES\n1, 100\n2, 200\n3, 300\n*IDENTIFY\ncore.E, 1e10, 1e12, 2e11\n"
+                                      "core.G, 1e10, 1e12, 8e10\n",
+                                      7850 + 1e-7 * i));
         open_study("*STUDY\n*DECKS\nnear.inp\n*DATA, SOURCE=MODEL\n*NOISE\n0.001, 0.02\n");
         cJSON *result = bench_result(&study, 0);
         double found = number_of(result, "objective");

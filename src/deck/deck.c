@@ -326,6 +326,8 @@ static void note_assumptions(struct deck_reader *reader)
             deck_note(reader, reader->modes_card->place,
                       "the disk at %.6g m has no polar inertia, which is all of it that counts in torsion",
                       rotor->disk[d].position);
+    if (reader->job->options.solid)
+        deck_note_boxes(reader);
     for (int g = rotor->ngroup - 1; g >= 0 && reader->job->options.solid; g--) {
         const struct group *group = &rotor->group[g];
         shear = !group->material.isotropic && !group->material.laminated ? g : shear;

@@ -315,6 +315,8 @@ deck_item_check deck_check_sensor, deck_check_tierod, deck_check_bars, deck_chec
 
 /* The causes that MODEL=SOLID leaves without a meaning: an error each. */
 void deck_causes_of_solid(struct deck_reader *reader);
+/* Of a solid: zones that end inside a section, a warning each. */
+void deck_note_boxes(struct deck_reader *reader);
 
 /* The cards of the text into the job, with everything that is checked of them. */
 void deck_read_cards(struct deck_reader *reader);
@@ -558,7 +560,7 @@ int deck_write(struct pool *pool, const struct states *given, const struct state
 /* deck_write of a diagnosis that has a verdict (sentence): what was named, the base model where nothing was, the moduli at their
  * fitted values, the verdict in the heading. */
 #define DECK_EXTENDED_FROM "rotid " ROTID_VERSION " from " /* begins its heading, */
-#define DECK_MESH_REFINED  "the mesh is refined: "        /* and this the line behind it where that is so */
+#define DECK_MESH_REFINED  "the mesh is refined: "         /* and this the line behind it where that is so */
 int deck_write_extended(struct pool *pool, const struct diagnosis *diagnosis, struct message_list *notes, char **text);
 
 /* The text of deck_write for the file `to`: the paths of files in the folder of the deck `from` are relative where `to` lies

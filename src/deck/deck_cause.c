@@ -5,6 +5,8 @@
 
 #include "deck/deck_row.h"
 
+#define SAME_PLACE 1e-9 /* of the length: an end of a zone is that of a section */
+
 struct cause_card {
     struct deck_reader *reader;
     const struct card *card;
@@ -412,6 +414,44 @@ void deck_causes_of_solid(struct deck_reader *reader)
                 "TYPE=%s corrects what a beam gets wrong, and a solid has no such error, expected no such cause with *FIT, "
                 "MODEL=SOLID",
                 kind->id);
+    }
+}
+
+/* Whether an end of a box of this effect lies inside a section. */
+static int ends_in_a_section(const struct rotor *rotor, const struct effect *effect)
+{
+    double z = NAN, width = NAN, length = rotor_length(rotor);
+    for (int p = 0; p < effect->kind->nparameter; p++) {
+        const char *name = effect->kind->parameter[p].name;
+        z = same_text(name, "z") ? effect->value[p] : z;
+        width = same_text(name, "width") ? effect->value[p] : width;
+    }
+    int inside = 0;
+    for (int side = -1; side < 2; side += 2) {
+        double edge = z + side * width / 2, border = 0, apart = edge > 0 && edge < length ? edge : 0;
+        for (int s = 0; s < rotor->nsegment; s++)
+            apart = fmin(apart, fabs(edge - (border += rotor->segment[s].length)));
+        inside |= apart > SAME_PLACE * length;
+    }
+    return inside;
+}
+
+void deck_note_boxes(struct deck_reader *reader)
+{
+    const struct rotor *rotor = &reader->job->rotor;
+    for (int c = 0; c < reader->text.ncard; c++) {
+        const struct card *card = &reader->text.card[c];
+        const struct card_option *shape = same_text(card->name, "CAUSE") ? card_option(card, "SHAPE") : NULL,
+                                 *name = shape ? card_option(card, "NAME") : NULL;
+        for (int i = 0; i < rotor->neffect && name && !strncmp(shape->value, "BOX", 3); i++)
+            if (same_text(rotor->effect[i].name, name->value) && same_text(rotor->effect[i].kind->id, "stiffness_local") &&
+                ends_in_a_section(rotor, &rotor->effect[i]))
+                deck_note(
+                    reader, card->place,
+                    "this zone ends inside a section, and a solid takes the mean of E and G in an element that its end cuts, "
+                    "which the column mesh does not see: up to 1 %% of what the zone changes; expected sections that end where "
+                    "it "
+                    "ends, or SHAPE=GAUSSIAN");
     }
 }
 

@@ -38,7 +38,7 @@ int deck_write_extended(struct pool *pool, const struct diagnosis *d, struct mes
         const struct candidate *other = &d->alternative[i];
         const char *word = i && other->set && other->set == other[-1].set ? "together with" : "cannot be told apart:";
         extra[lines++] = pool_format(pool, "%s %s%s%s", word, other->cause->id, other->target && *other->target ? " " : "",
-                                   other->target ? other->target : "");
+                                     other->target ? other->target : "");
     }
     for (int i = 0; i < lines; i++)
         if (!extra[i])

@@ -274,11 +274,12 @@ static int exchange(struct engine *engine, const struct round_result *result, co
     engine->number = best.number;
     engine->dropped = 0;
     take_back(engine);
-    return data_add_pairing(engine, best.number[at], best.number[at + 1],
-                            pool_format(engine->pool,
-                                        "the shapes of measured modes %d and %d (%.6g and %.6g Hz) have their numbers exchanged; they "
-                                        "are put right",
-                                        best.number[at], best.number[at + 1], best.frequency_hz[at], best.frequency_hz[at + 1]));
+    return data_add_pairing(
+        engine, best.number[at], best.number[at + 1],
+        pool_format(engine->pool,
+                    "the shapes of measured modes %d and %d (%.6g and %.6g Hz) have their numbers exchanged; they "
+                    "are put right",
+                    best.number[at], best.number[at + 1], best.frequency_hz[at], best.frequency_hz[at + 1]));
 }
 
 int pairing_settle(struct engine *engine, const struct round_result *result, int *changed)
