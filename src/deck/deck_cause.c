@@ -449,9 +449,8 @@ void deck_note_boxes(struct deck_reader *reader)
                 deck_note(
                     reader, card->place,
                     "this zone ends inside a section, and a solid takes the mean of E and G in an element that its end cuts, "
-                    "which the column mesh does not see: up to 1 %% of what the zone changes; expected sections that end where "
-                    "it "
-                    "ends, or SHAPE=GAUSSIAN");
+                    "which the column mesh does not see: up to 1 %% of what the zone changes; expected sections that end there, "
+                    "or SHAPE=GAUSSIAN");
     }
 }
 

@@ -368,8 +368,7 @@ static void take_mode(const struct job *source, const struct modes *modes, int k
     double *shape = job->measurement.shape + (ptrdiff_t)k * job->rotor.nsensor;
     for (int s = 0; s < modes->nsensor; s++)
         largest = fmax(largest, fabs(made[s]));
-    for (int s = modes->nsensor - 1; s >= 0;
-         s--) /* the first sensor that moves by half of that decides the sign, which no solver states */
+    for (int s = modes->nsensor - 1; s >= 0; s--) /* no solver states a sign: that of the first sensor that moves by half of it */
         if (fabs(made[s]) >= largest / 2)
             sign = made[s] < 0 ? -1 : 1;
     for (int s = 0; s < job->rotor.nsensor; s++) {
