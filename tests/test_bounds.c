@@ -106,6 +106,11 @@ UNIT_TEST(test_pressed_is_what_saturates)
     assert_int_equal(bounds_pressed(&spring, 5000), 0);
     assert_int_equal(bounds_pressed(&spring, 1.5), -1);
     assert_int_equal(bounds_pressed(&spring, 1e12), 1);
+    rotid_parameter density = {"rho", "kg/m3", 8600, 9000, 8600}; /* an extended deck starts where the fit ended */
+    assert_int_equal(bounds_pressed(&density, 8600), -1);
+    assert_int_equal(bounds_pressed(&density, 8600.001), 0);
+    density.start = 8600.0000001;
+    assert_int_equal(bounds_pressed(&density, 8600.0000001), -1);
 }
 
 UNIT_TEST(test_student_quantiles_agree_with_the_tables)

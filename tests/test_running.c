@@ -631,6 +631,27 @@ POOL_TEST(unbalance_in_many_planes_is_one_load)
     assert_close(cabs(motion[0] + motion[1] - motion[2]) / cabs(motion[2]), 0, 0, 1e-7);
 }
 
+/* A pedestal sank under its own weight before the rotor was laid in its bearing: the sag is that of springs in series and of the
+ * shaft, whatever the pedestal weighs. */
+POOL_TEST(pedestals_do_not_sag_under_their_own_weight)
+{
+    double sag[2];
+    for (int i = 0; i < 2; i++) {
+        struct running_case c;
+        char *text =
+            pool_format(&test_pool,
+                        "*MATERIAL, NAME=m\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=s, MATERIAL=m\n0.5, 0.2, 0, "
+                        "10\n*RUNNING\n*BEARING, NAME=a\nstart, 1e8, 1e4\n*BEARING, NAME=b\nend, 1e8, 1e4\n"
+                        "*PEDESTAL, BEARING=a\n%s, %s, 1e8, 1e8\n*PEDESTAL, BEARING=b\n%s, %s, 1e8, 1e8\n",
+                        i ? "1000" : "1", i ? "1000" : "1", i ? "1000" : "1", i ? "1000" : "1");
+        assert_int_equal(running_case_open(text, 3000, 4, 0, &c), ROTID_OK);
+        sag[i] = c.speeds.sag_m;
+        assert_close(sag[i], c.speeds.weight_n * 2 / 2e8, 0.02, 0); /* half of it on two springs of 1e8, and bending */
+        running_case_close(&c);
+    }
+    assert_close(sag[1], sag[0], 1e-9, 0);
+}
+
 POOL_TEST(bearing_loads_carry_the_weight)
 {
     struct running_case c;

@@ -56,7 +56,8 @@ void bounds_jacobian(int m, int n, const rotid_parameter *parameter, double chi,
 int bounds_pressed(const rotid_parameter *parameter, double x)
 {
     double span = parameter->upper - parameter->lower;
-    if (x - parameter->lower < SATURATED * span && x - parameter->lower < 0.01 * fabs(parameter->start - parameter->lower))
+    double above = x - parameter->lower, start = parameter->start - parameter->lower;
+    if (above < SATURATED * span && above < fmax(0.01 * fabs(start), SATURATED * fabs(parameter->lower)))
         return -1;
     return parameter->upper - x < SATURATED * span;
 }

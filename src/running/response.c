@@ -144,9 +144,6 @@ int static_loads(struct pool *pool, struct system *s, double speed, rotid_speeds
     out->weight_n = s->total_mass * GRAVITY;
     for (int j = 0; j < s->columns; j++)
         q[s->plane + j] = -GRAVITY * s->weight[j];
-    for (int i = 0, at = s->plane + s->columns; i < machine->nbearing; i++)
-        if (machine->bearing[i].pedestal.count)
-            q[at++] = -GRAVITY * machine->bearing[i].m[1];
     system_at(s, speed);
     for (ptrdiff_t i = 0; i < (ptrdiff_t)s->size * s->size; i++)
         s->d[i] = s->stiff[i];
