@@ -173,7 +173,7 @@ UNIT_TEST(a_cause_that_changes_nothing_is_warned_about)
 
 /* One shaft written as one, three and twenty sections: the first mode is 0.09 % low, 0.13 % high, and right where the box ends
  * with its sections, and the column mesh says 0.02 % at most. */
-UNIT_TEST(a_box_that_ends_inside_a_section_of_a_solid_is_warned_about)
+POOL_TEST(a_box_that_ends_inside_a_section_of_a_solid_is_warned_about)
 {
     static const struct {
         const char *shaft, *rest;
