@@ -176,19 +176,20 @@ UNIT_TEST(a_cause_that_changes_nothing_is_warned_about)
 POOL_TEST(a_box_that_ends_inside_a_section_of_a_solid_is_warned_about)
 {
     static const struct {
-        const char *shaft, *rest;
+        const char *shaft, *rest, *shape;
         int warned;
-    } table[] = {{"1, 0.1\n", "*FIT, MODEL=SOLID\n", 1},
-                 {"0.45, 0.1\n0.1, 0.1\n0.45, 0.1\n", "*FIT, MODEL=SOLID\n", 0},
-                 {"1, 0.1, 0, 10\n", "", 0}};
-    for (int i = 0; i < 3; i++) {
+    } table[] = {{"1, 0.1\n", "*FIT, MODEL=SOLID\n", "BOX", 1},
+                 {"1, 0.1\n", "*FIT, MODEL=SOLID\n", "box", 1},
+                 {"0.45, 0.1\n0.1, 0.1\n0.45, 0.1\n", "*FIT, MODEL=SOLID\n", "BOX", 0},
+                 {"1, 0.1, 0, 10\n", "", "BOX", 0}};
+    for (int i = 0; i < 4; i++) {
         struct reading r;
         read_text(&r,
                   pool_format(
                       &test_pool,
                       "*MATERIAL, NAME=m\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=s, MATERIAL=m\n%s%s*CAUSE, NAME=c, "
-                      "TYPE=stiffness_local, SHAPE=BOX\ndepth, 0.6\nz, 0.5\nwidth, 0.1\n",
-                      table[i].shaft, table[i].rest),
+                      "TYPE=stiffness_local, SHAPE=%s\ndepth, 0.6\nz, 0.5\nwidth, 0.1\n",
+                      table[i].shaft, table[i].rest, table[i].shape),
                   NULL);
         assert_int_equal(r.job.rotor.neffect, 1);
         assert_int_equal(warns(&r.messages, "this zone ends inside a section"), table[i].warned);

@@ -5,7 +5,7 @@
 
 #include "deck/deck_row.h"
 
-#define SAME_PLACE 1e-9 /* of the length: an end of a zone is that of a section */
+#define SAME_PLACE 1e-9 /* of the length */
 
 struct cause_card {
     struct deck_reader *reader;
@@ -417,40 +417,35 @@ void deck_causes_of_solid(struct deck_reader *reader)
     }
 }
 
-/* Whether an end of a box of this effect lies inside a section. */
-static int ends_in_a_section(const struct rotor *rotor, const struct effect *effect)
+/* Whether a place lies inside a section, neither at an end of one nor beyond the rotor. */
+static int is_in_a_section(const struct rotor *rotor, double z)
 {
-    double z = NAN, width = NAN, length = rotor_length(rotor);
-    for (int p = 0; p < effect->kind->nparameter; p++) {
-        const char *name = effect->kind->parameter[p].name;
-        z = same_text(name, "z") ? effect->value[p] : z;
-        width = same_text(name, "width") ? effect->value[p] : width;
+    double apart = z, border = 0, length = rotor_length(rotor);
+    for (int s = 0; s < rotor->nsegment; s++) {
+        border += rotor->segment[s].length;
+        apart = fmin(apart, fabs(z - border));
     }
-    int inside = 0;
-    for (int side = -1; side < 2; side += 2) {
-        double edge = z + side * width / 2, border = 0, apart = edge > 0 && edge < length ? edge : 0;
-        for (int s = 0; s < rotor->nsegment; s++)
-            apart = fmin(apart, fabs(edge - (border += rotor->segment[s].length)));
-        inside |= apart > SAME_PLACE * length;
-    }
-    return inside;
+    return z < length && apart > SAME_PLACE * length;
 }
 
 void deck_note_boxes(struct deck_reader *reader)
 {
+    const struct cause_kind *zone = catalogue_find("stiffness_local");
     const struct rotor *rotor = &reader->job->rotor;
     for (int c = 0; c < reader->text.ncard; c++) {
         const struct card *card = &reader->text.card[c];
-        const struct card_option *shape = same_text(card->name, "CAUSE") ? card_option(card, "SHAPE") : NULL,
-                                 *name = shape ? card_option(card, "NAME") : NULL;
-        for (int i = 0; i < rotor->neffect && name && !strncmp(shape->value, "BOX", 3); i++)
-            if (same_text(rotor->effect[i].name, name->value) && same_text(rotor->effect[i].kind->id, "stiffness_local") &&
-                ends_in_a_section(rotor, &rotor->effect[i]))
+        const struct card_option *name = same_text(card->name, "CAUSE") ? card_option(card, "NAME") : NULL;
+        for (int i = 0; i < rotor->neffect && name; i++) {
+            const struct effect *e = &rotor->effect[i];
+            double z = e->value[zone->place], half = e->value[zone->width] / 2;
+            if (e->kind == zone->effect && same_text(e->name, name->value) && !strncmp(zone->variant[e->variant], "BOX", 3) &&
+                (is_in_a_section(rotor, z - half) || is_in_a_section(rotor, z + half)))
                 deck_note(
                     reader, card->place,
                     "this zone ends inside a section, and a solid takes the mean of E and G in an element that its end cuts, "
                     "which the column mesh does not see: up to 1 %% of what the zone changes; expected sections that end there, "
                     "or SHAPE=GAUSSIAN");
+        }
     }
 }
 

@@ -58,7 +58,6 @@ double shift_of(int known, const double *value, double largest)
     return isfinite(value[j]) && value[j] >= ZERO * largest ? -0.1 * value[j] : 0;
 }
 
-/* A_ii; *f is the first far degree of freedom that is not below i */
 double diagonal_of(const rotid_matrix *a, int i, int *f)
 {
     double value = a->band[(ptrdiff_t)i * (a->kd + 1)];

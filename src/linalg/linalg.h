@@ -739,7 +739,7 @@ double shift_above(double last, double below, double largest);
  * have by rounding. */
 double shift_below(double last, double below, double largest);
 
-/* A_ii, for i that increases from 0: *f counts the rows of the far block so far. */
+/* A_ii, for i that rises from call to call: *f, 0 at first, is the first far degree of freedom that is not below i. */
 double diagonal_of(const rotid_matrix *a, int i, int *f);
 
 /* The size of the highest eigenvalue of K x = lambda M x: the largest K_ii/M_ii; 0 where K has no diagonal, or where one of these
