@@ -652,6 +652,37 @@ POOL_TEST(pedestals_do_not_sag_under_their_own_weight)
     assert_close(sag[1], sag[0], 1e-9, 0);
 }
 
+/* A film that is stiff on a pedestal of a mass m is a disk of that mass on the pedestal's springs, one on a stiff pedestal is on
+ * rigid ground; how stiff is nothing to the critical speeds, nor to the loads. */
+POOL_TEST(a_stiff_film_or_a_stiff_pedestal_hides_no_critical_speed)
+{
+    const char *end[] = {"*DISK\n0.1, 300\n*BEARING\n0.1, 2e7, 3e7, 2e4, 1e4\n",
+                         "*BEARING, NAME=e\n0.1, 1e15, 1e15, 0, 0\n*PEDESTAL, BEARING=e\n300, 300, 2e7, 3e7, 2e4, 1e4\n",
+                         "*BEARING\n0.1, 2e7, 3e7, 2e4, 1e4\n",
+                         "*BEARING, NAME=e\n0.1, 2e7, 3e7, 2e4, 1e4\n*PEDESTAL, BEARING=e\n300, 300, 1e17, 1e17\n"};
+    struct running_case c[4];
+    for (int i = 0; i < 4; i++) {
+        const char *deck =
+            pool_format(&test_pool,
+                        "*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=s\n1.5, "
+                        "0.15, 0, 10\n*RUNNING\n*DISK\n0.9, 60, 1.5, 2.8\n*BEARING\n1.4, 1e8, 8e7, 3e4, 3e4\n%s",
+                        end[i]);
+        assert_int_equal(running_case_open(deck, 25000, 12, 0, &c[i]), ROTID_OK);
+    }
+    for (int i = 0; i < 4; i += 2) {
+        const rotid_speeds *one = &c[i].speeds, *other = &c[i + 1].speeds;
+        assert_true(one->ncritical_speeds >= 4);
+        assert_int_equal(other->ncritical_speeds, one->ncritical_speeds);
+        for (int j = 0; j < one->ncritical_speeds; j++)
+            assert_close(other->critical_speeds[j].speed_rpm, one->critical_speeds[j].speed_rpm, 1e-6, 0);
+        if (i) /* there the disk weighs on the bearing */
+            assert_close(other->bearing_loads[1].load_y_n, one->bearing_loads[1].load_y_n, 1e-6, 0);
+    }
+    assert_close(c[1].speeds.bearing_loads[0].load_y_n, c[0].speeds.bearing_loads[0].load_y_n, 1e-6, 0);
+    for (int i = 0; i < 4; i++)
+        running_case_close(&c[i]);
+}
+
 POOL_TEST(bearing_loads_carry_the_weight)
 {
     struct running_case c;

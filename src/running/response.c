@@ -150,17 +150,12 @@ int static_loads(struct pool *pool, struct system *s, double speed, rotid_speeds
     if (complex_factor(s->size, s->d, s->pivot))
         return ROTID_ERROR_STIFFNESS;
     complex_solve(s->size, 0, s->d, s->pivot, q);
-    for (int i = 0, pedestal = 0; i < machine->nbearing; i++) {
+    for (int i = 0; i < machine->nbearing; i++) {
         const struct bearing *b = &machine->bearing[i];
         double k[4], c[4], f = machine_bearing_factor(s->machine, s->values, i, 0);
         coefficients_at(&b->film, speed, k, c, NULL, NULL);
-        system_orbit(s, s->bearing + (ptrdiff_t)s->columns * i, q, orbit);
+        system_film(s, i, q, orbit);
         double x = creal(orbit[0]), y = creal(orbit[1]);
-        if (b->pedestal.count) {
-            x -= creal(q[s->columns + pedestal]);
-            y -= creal(q[s->plane + s->columns + pedestal]);
-            pedestal++;
-        }
         out->bearing_loads[i] = (rotid_bearing_load){b->name, b->z, f * (k[XX] * x + k[XY] * y), f * (k[YX] * x + k[YY] * y)};
     }
     for (int i = 0; i < s->naxis; i++) {

@@ -187,8 +187,9 @@ struct pair {
     double complex *u, *left; /* [size] u'u = 1; left: u* D = 0 from the left, in any scale */
 };
 
-/* The matrices of a machine on a basis. A plane has `plane` unknowns, those of the basis and behind them the pedestals; size = 2
- * plane: those of x, then those of y. */
+/* The matrices of a machine on a basis. A plane has `plane` unknowns: those of the basis, and behind them for each bearing on a
+ * pedestal what the stiffer of the two gives way, the film or the pedestal; the other one gives way by v' V q less that. A large
+ * stiffness on both unknowns would leave no digits of what is soft. size = 2 plane: those of x, then those of y. */
 struct system {
     const struct machine *machine;
     const struct machine_values *values;
@@ -240,6 +241,9 @@ void system_dynamic(const struct system *system, double complex lambda, int side
 
 /* Motions in x and y of a place whose row of the basis is `row`, in the motion u [size]. */
 void system_orbit(const struct system *system, const double *row, const double complex *u, double complex orbit[2]);
+
+/* How far the film of a bearing gives way in x and y in the motion u [size]. */
+void system_film(const struct system *system, int bearing, const double complex *u, double complex film[2]);
 
 /* The pair of one system on the basis of another one of the same mesh: u := V' M u_full. Without left vector. Returns 0, or 1
  * where the vectors of the other one have lost more than a tenth of it. */

@@ -274,6 +274,43 @@ static int project_all(struct builder *b)
     return ROTID_OK;
 }
 
+static double largest(const struct coefficients *all)
+{
+    double most = 0;
+    for (int i = 0; i < all->count; i++)
+        most = fmax(most, fmax(fabs(all->k[4 * i + XX]), fabs(all->k[4 * i + YY])));
+    return most;
+}
+
+/* Of the film and the pedestal of a bearing the stiffer one gives way by the unknown alone, the other one by v' V q less that. */
+static int film_stands_alone(const struct bearing *bearing)
+{
+    return largest(&bearing->film) > largest(&bearing->pedestal);
+}
+
+enum part { FILM, PEDESTAL };
+
+/* a += factor [xx xy; yx yy] on what a part of a bearing gives way in both planes; at: the unknown behind the basis, -1: none. */
+static void add_bearing(const struct system *s, int bearing, int at, enum part part, const double value[4], double factor,
+                        double *a)
+{
+    const double *v = s->bearing + (ptrdiff_t)s->columns * bearing;
+    int alone = at >= 0 && (part == FILM) == film_stands_alone(&s->machine->bearing[bearing]);
+    int first = alone ? s->columns : 0, behind = s->columns + (at >= 0);
+    double end = alone ? 1 : -1;
+    for (int plane = 0; plane < 2; plane++)
+        for (int other = 0; other < 2; other++) {
+            double f = factor * value[2 * plane + other];
+            double *block = a + (plane + (ptrdiff_t)s->size * other) * s->plane;
+            for (int j = first; j < behind && f != 0; j++) {
+                double right = f * (j < s->columns ? v[j] : end);
+                double *column = block + (ptrdiff_t)s->size * (j < s->columns ? j : at);
+                for (int i = first; i < behind; i++)
+                    column[i < s->columns ? i : at] += right * (i < s->columns ? v[i] : end);
+            }
+        }
+}
+
 static int open_dense(struct pool *pool, struct system *s)
 {
     const struct machine *machine = s->machine;
@@ -303,15 +340,15 @@ static int open_dense(struct pool *pool, struct system *s)
     s->right = s->d + square;
     s->left = s->right + s->size;
     for (int plane = 0; plane < 2; plane++) {
-        int first = plane * s->plane, at = first + s->columns;
+        int first = plane * s->plane, at = s->columns;
         for (int j = 0; j < s->columns; j++)
             for (int i = 0; i < s->columns; i++)
                 s->mass[first + i + (ptrdiff_t)s->size * (first + j)] =
                     s->own_mass ? s->own_mass[i + (ptrdiff_t)s->columns * j] : i == j;
         for (int i = 0; i < machine->nbearing; i++)
             if (machine->bearing[i].pedestal.count) {
-                s->mass[at + (ptrdiff_t)s->size * at] = machine->bearing[i].m[plane];
-                at++;
+                const double m[4] = {machine->bearing[i].m[plane]};
+                add_bearing(s, i, at++, PEDESTAL, m, 1, s->mass + first * (ptrdiff_t)(s->size + 1));
             }
     }
     return ROTID_OK;
@@ -359,25 +396,6 @@ int system_build(struct pool *pool, const struct machine *machine, const struct 
 
 /* ---- at a speed */
 
-/* a += [xx xy; yx yy] on the motions v of both planes less those of the pedestal, whose place is `at`; -1: there is none */
-static void add_bearing(const struct system *s, const double *v, int at, const double value[4], double factor, double *a)
-{
-    for (int plane = 0; plane < 2; plane++)
-        for (int other = 0; other < 2; other++) {
-            double f = factor * value[2 * plane + other];
-            double *block = a + (plane + (ptrdiff_t)s->size * other) * s->plane;
-            for (int j = 0; j <= s->columns && f != 0; j++) {
-                int column = j < s->columns ? j : at;
-                double right = j < s->columns ? v[j] : -1;
-                for (int i = 0; i <= s->columns && column >= 0; i++) {
-                    int row = i < s->columns ? i : at;
-                    if (row >= 0)
-                        block[row + (ptrdiff_t)s->size * column] += f * right * (i < s->columns ? v[i] : -1);
-                }
-            }
-        }
-}
-
 static void add_block(const struct system *s, double factor, const double *value, int row, int column, double *a)
 {
     double *block = a + (row + (ptrdiff_t)s->size * column) * s->plane;
@@ -414,24 +432,33 @@ void system_at(struct system *s, double speed)
     }
     for (int i = 0, pedestal = 0; i < machine->nbearing; i++) {
         const struct bearing *bearing = &machine->bearing[i];
-        const double *v = s->bearing + (ptrdiff_t)s->columns * i;
         double k[4], c[4], dk[4], dc[4];
         int at = bearing->pedestal.count ? s->columns + pedestal++ : -1;
         double of_k = machine_bearing_factor(machine, s->values, i, 0), of_c = machine_bearing_factor(machine, s->values, i, 1);
         coefficients_at(&bearing->film, speed, k, c, dk, dc);
-        add_bearing(s, v, at, k, of_k, s->stiff);
-        add_bearing(s, v, at, c, of_c, s->c);
-        add_bearing(s, v, at, dk, of_k, s->dk);
-        add_bearing(s, v, at, dc, of_c, s->dc);
-        if (at >= 0)
-            coefficients_at(&bearing->pedestal, speed, k, c, dk, dc);
-        for (int plane = 0; plane < 2 && at >= 0; plane++) {
-            ptrdiff_t diagonal = (ptrdiff_t)(s->size + 1) * (at + plane * s->plane);
-            s->stiff[diagonal] += k[plane ? YY : XX];
-            s->c[diagonal] += c[plane ? YY : XX];
-            s->dk[diagonal] += dk[plane ? YY : XX];
-            s->dc[diagonal] += dc[plane ? YY : XX];
-        }
+        add_bearing(s, i, at, FILM, k, of_k, s->stiff);
+        add_bearing(s, i, at, FILM, c, of_c, s->c);
+        add_bearing(s, i, at, FILM, dk, of_k, s->dk);
+        add_bearing(s, i, at, FILM, dc, of_c, s->dc);
+        if (at < 0)
+            continue;
+        coefficients_at(&bearing->pedestal, speed, k, c, dk, dc);
+        add_bearing(s, i, at, PEDESTAL, k, 1, s->stiff);
+        add_bearing(s, i, at, PEDESTAL, c, 1, s->c);
+        add_bearing(s, i, at, PEDESTAL, dk, 1, s->dk);
+        add_bearing(s, i, at, PEDESTAL, dc, 1, s->dc);
+    }
+}
+
+void system_film(const struct system *s, int bearing, const double complex *u, double complex film[2])
+{
+    int at = s->columns;
+    for (int i = 0; i < bearing; i++)
+        at += s->machine->bearing[i].pedestal.count > 0;
+    system_orbit(s, s->bearing + (ptrdiff_t)s->columns * bearing, u, film);
+    for (int plane = 0; plane < 2 && s->machine->bearing[bearing].pedestal.count; plane++) {
+        double complex own = u[plane * s->plane + at];
+        film[plane] = film_stands_alone(&s->machine->bearing[bearing]) ? own : film[plane] - own;
     }
 }
 
