@@ -138,7 +138,8 @@ static int find_divergence(struct pool *pool, struct system *s, struct pair *all
     return status;
 }
 
-/* Modes above those that are followed and that grow at one of the speeds, and what grows without whirl. */
+/* Modes above those that are followed and that grow at one of the speeds, and what grows without whirl. Of a mode in the upper
+ * half of the basis, which does not tell what becomes of it, the frequency is kept. */
 static int add_growing(struct pool *pool, struct system *s, struct pair *all, struct tracks *t)
 {
     double *work = POOL_ARRAY(pool, double, (size_t)s->size *(size_t)s->size), real;
@@ -152,8 +153,11 @@ static int add_growing(struct pool *pool, struct system *s, struct pair *all, st
         if (!status && real > 0 && isnan(t->diverges))
             status = find_divergence(pool, s, all, t->speed[i > 1 ? i - 2 : 0], t->speed[i], &t->diverges);
         for (int j = 0; j < count && !status && t->nmode < t->room; j++) {
-            int known =
-                !grows(&all[j]) || cimag(all[j].lambda) > s->highest / 2 || settle(s, t->speed[i], &all[j]) || !grows(&all[j]);
+            int known = !grows(&all[j]) || settle(s, t->speed[i], &all[j]) || !grows(&all[j]);
+            if (!known && cimag(all[j].lambda) > s->highest / 2) {
+                t->beyond = fmax(t->beyond, cimag(all[j].lambda));
+                known = 1;
+            }
             for (int m = 0; m < t->nmode && !known; m++)
                 known = are_same(s, track_at(t, m, i), &all[j]);
             status = known ? ROTID_OK : add_mode(pool, s, t, &all[j], i);

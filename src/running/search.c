@@ -9,6 +9,7 @@
 #define MODES_FIRST 14
 #define MODES_MOST  48
 #define REACH       2.5 /* the highest mode of the basis over the highest speed, at least */
+#define BOTH_HALVES 2.1 /* times the frequency of a mode of the lower half of a basis: its highest one */
 #define COUPLED     10
 #define RESOLVED    1e6 /* times the highest frequency of the basis: damping */
 #define ATTEMPTS    4
@@ -148,10 +149,19 @@ static int find(struct pool *pool, struct search *s, double to)
     return status ? status : thin(pool, s, &s->followed, &s->tracks);
 }
 
+/* A basis in whose upper half a mode grows gives way to one in whose lower half that mode lies. */
 int search_within(struct pool *pool, double to, struct message_list *notes, struct search *s)
 {
-    int status = build(pool, s, to * fmax(1, s->harmonic), notes);
-    return status ? status : find(pool, s, to);
+    double highest = to * fmax(1, s->harmonic);
+    int status = ROTID_OK, more = 1;
+    while (!status && more) {
+        status = build(pool, s, highest, notes);
+        if (!status)
+            status = find(pool, s, to);
+        more = !status && s->followed.beyond > 0 && s->basis.modes < s->system.n && s->basis.modes < MODES_MOST;
+        highest = fmax(highest, BOTH_HALVES * s->followed.beyond / REACH);
+    }
+    return status;
 }
 
 int search_count(const struct search *s, int backward)

@@ -321,6 +321,11 @@ int speeds_run(struct pool *pool, const struct machine *machine, const struct jo
                     r.search.missed / RPM);
     if (!status)
         status = fill(&r);
+    if (!status && isnan(out->stability.onset_rpm) && r.search.followed.beyond > 0)
+        message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
+                    "a mode at %.6g Hz grows, too high for the basis to tell its stability: expected what damps it, or no cross "
+                    "coupling that drives it there",
+                    r.search.followed.beyond / (2 * PI));
     if (!status)
         status = runup_compare(pool, machine, job, x, fit, notes, &out->nrunup, &out->runup);
     if (!status)
