@@ -199,8 +199,8 @@ struct system {
     rotid_matrix m;             /* of the full model */
     double *basis, *mass_basis; /* [n * columns] V with V' M V = 1, and M V */
     double *k, *p;              /* [columns^2] V' K V with springs and pull, V' P V */
-    double **loss;              /* [nloss] [columns^2] elastic stiffness of each group */
-    double *bearing;            /* [columns * nbearing] V' v of each bearing; of unbalances and probes likewise */
+    double *loss[2]; /* [columns^2] elastic stiffness of the groups times their loss factors, times their viscous losses */
+    double *bearing; /* [columns * nbearing] V' v of each bearing; of unbalances and probes likewise */
     double *unbalance, *probe;
     double *weight; /* [columns] V' M 1: a uniform acceleration */
     double *axis;   /* [columns * naxis] rows of V at the places of the axis */

@@ -9,7 +9,7 @@ struct builder {
     struct pool *pool, scratch;
     struct system *system;
     rotid_matrix k, p, pull, held; /* held: K with springs of the bearings' mean stiffness */
-    rotid_matrix *loss;            /* [nloss] */
+    rotid_matrix loss[2];          /* elastic stiffness times loss factors, and times viscous losses */
     double *attached;              /* [n * attachments] bearings, unbalances, probes */
     int attachments, room;
     struct factor factor;
@@ -40,30 +40,28 @@ static int assemble(struct builder *b, const double *x)
     discrete_structure(&s->discrete, &structure);
     s->n = structure.n;
     int status = matrix_like(b->pool, &structure, &s->m);
-    rotid_matrix *const own[] = {&b->k, &b->p, &b->pull, &b->held};
-    for (int i = 0; i < 4 && !status; i++)
+    rotid_matrix *const own[] = {&b->k, &b->p, &b->pull, &b->held, &b->loss[0], &b->loss[1]};
+    for (int i = 0; i < 6 && !status; i++)
         status = matrix_like(&b->scratch, &structure, own[i]);
-    b->loss = POOL_ARRAY(&b->scratch, rotid_matrix, machine->nloss);
-    for (int i = 0; i < machine->nloss && b->loss && !status; i++)
-        status = matrix_like(&b->scratch, &structure, &b->loss[i]);
     b->work = POOL_ARRAY(&b->scratch, double, 4 * (size_t)s->n);
-    if (status || !b->loss || !b->work)
+    if (status || !b->work)
         return ROTID_ERROR_MEMORY;
     discrete_assemble(&s->discrete, x, &b->k, &s->m);
     discrete_gyroscopic(&s->discrete, &b->p);
     for (int i = 0; i < machine->npull; i++)
         discrete_spread(&s->discrete, machine->pull[i].group, machine->pull[i].value * s->values->pull[i], &b->pull);
+    rotid_matrix none;
+    if (machine->nloss && matrix_like(&b->scratch, &structure, &none))
+        return ROTID_ERROR_MEMORY;
     for (int i = 0, p = 0; i < machine->nloss; i++) {
         const struct material *material = &discrete_rotor(&s->discrete)->group[machine->loss[i].group].material;
+        rotid_matrix *sum = &b->loss[machine->loss[i].viscous];
+        double value = machine->loss[i].value * s->values->loss[i];
         for (int part = 0; part < 2 - material->isotropic; part++, p++) {
             int from, end;
             matrix_zero(&b->held);
-            rotid_matrix none = b->held;
-            status = matrix_like(&b->scratch, &structure, &none);
-            if (status)
-                return status;
             discrete_differentiate(&s->discrete, p, &b->held, &none, &from, &end);
-            matrix_combine(1, &b->loss[i], x[p], &b->held, &b->loss[i]);
+            matrix_combine(1, sum, value * x[p], &b->held, sum);
         }
     }
     return ROTID_OK;
@@ -185,7 +183,8 @@ static int make_basis(struct builder *b, const struct basis_size *size)
 {
     struct system *s = b->system;
     int modes = size->modes < s->n ? size->modes : s->n, coupled = size->coupled < modes ? size->coupled : modes;
-    int kinds = size->all ? 1 + (s->machine->npull > 0) + s->machine->nloss : 1;
+    const rotid_matrix *acts[] = {&b->p, &b->pull, &b->loss[0], &b->loss[1]};
+    int kinds = size->all ? 4 : 1;
     struct eigen_full eigen;
     b->room = modes + (modes < s->n ? s->machine->nbearing + 5 + kinds * coupled : 0);
     b->room = b->room < s->n ? b->room : s->n;
@@ -207,11 +206,8 @@ static int make_basis(struct builder *b, const struct basis_size *size)
         extend_static(b, b->attached + (ptrdiff_t)s->n * i);
     extend_unbalance(b, force);
     for (int kind = 0; kind < kinds; kind++) {
-        const rotid_matrix *acts = kind == 0                        ? &b->p
-                                   : kind == 1 && s->machine->npull ? &b->pull
-                                                                    : &b->loss[kind - 1 - (s->machine->npull > 0)];
         for (int j = 0; j < coupled; j++) {
-            matrix_multiply(acts, 1, s->basis + (ptrdiff_t)s->n * j, force);
+            matrix_multiply(acts[kind], 1, s->basis + (ptrdiff_t)s->n * j, force);
             extend_static(b, force);
         }
     }
@@ -253,13 +249,12 @@ static int project_all(struct builder *b)
     int status = project(b, &b->k, &s->k), places = discrete_places(&s->discrete);
     if (!status)
         status = project(b, &b->p, &s->p);
-    s->loss = POOL_ARRAY(b->pool, double *, machine->nloss);
-    for (int i = 0; i < machine->nloss && s->loss && !status; i++)
+    for (int i = 0; i < 2 && machine->nloss && !status; i++)
         status = project(b, &b->loss[i], &s->loss[i]);
     s->bearing = POOL_ARRAY(b->pool, double, (size_t)s->columns *(size_t)(b->attachments + 1));
     s->axis = POOL_ARRAY(b->pool, double, (size_t)s->columns *(size_t)places);
     s->weight = POOL_ARRAY(b->pool, double, s->columns);
-    if (status || !s->loss || !s->bearing || !s->axis || !s->weight)
+    if (status || !s->bearing || !s->axis || !s->weight)
         return ROTID_ERROR_MEMORY;
     s->naxis = places;
     s->unbalance = s->bearing + (ptrdiff_t)s->columns * machine->nbearing;
@@ -418,17 +413,17 @@ void system_at(struct system *s, double speed)
     add_block(s, -speed, s->p, 1, 0, s->c);
     add_block(s, 1, s->p, 0, 1, s->dc);
     add_block(s, -1, s->p, 1, 0, s->dc);
-    for (int i = 0; i < machine->nloss; i++) {
-        double value = machine->loss[i].value * s->values->loss[i];
+    for (int viscous = 0; viscous < 2 && machine->nloss; viscous++) {
+        const double *loss = s->loss[viscous], rate = viscous ? speed : 1;
+        double *turn = viscous ? s->stiff : s->turn;
         for (int plane = 0; plane < 2; plane++)
-            add_block(s, value, s->loss[i], plane, plane, machine->loss[i].viscous ? s->c : s->h);
-        double *turn = machine->loss[i].viscous ? s->stiff : s->turn, rate = machine->loss[i].viscous ? speed : 1;
-        add_block(s, value * rate, s->loss[i], 0, 1, turn);
-        add_block(s, -value * rate, s->loss[i], 1, 0, turn);
-        if (machine->loss[i].viscous) {
-            add_block(s, value, s->loss[i], 0, 1, s->dk);
-            add_block(s, -value, s->loss[i], 1, 0, s->dk);
-        }
+            add_block(s, 1, loss, plane, plane, viscous ? s->c : s->h);
+        add_block(s, rate, loss, 0, 1, turn);
+        add_block(s, -rate, loss, 1, 0, turn);
+    }
+    if (machine->nloss) {
+        add_block(s, 1, s->loss[1], 0, 1, s->dk);
+        add_block(s, -1, s->loss[1], 1, 0, s->dk);
     }
     for (int i = 0, pedestal = 0; i < machine->nbearing; i++) {
         const struct bearing *bearing = &machine->bearing[i];
