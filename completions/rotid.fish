@@ -75,7 +75,7 @@ complete -c rotid -n '__fish_seen_subcommand_from ema' -l no-refinement -d 'pole
 complete -c rotid -n '__fish_seen_subcommand_from ema test' -l reference -x -d 'only transfer functions over this node'
 complete -c rotid -n '__fish_seen_subcommand_from ema test' -l averages -x -d 'impacts behind the coherences of the file'
 complete -c rotid -n '__fish_seen_subcommand_from ema' -l estimator -x -a 'H1 H2 HV' -d 'time records: noise is on the response (default), on the force, or on both'
-complete -c rotid -n '__fish_seen_subcommand_from ema' -l exponential -x -d 'time records: end value of an exponential window, such as 0.01 (default: none)'
+complete -c rotid -n '__fish_seen_subcommand_from ema' -l exponential -x -d 'rotid applies an exponential window of this end value, takes its damping out; not for records that hold one'
 complete -c rotid -n '__fish_seen_subcommand_from ema' -l force-window -x -d 'time records: length of the force window [s]; below zero: none'
 complete -c rotid -n '__fish_seen_subcommand_from ema' -l block -x -d 'time records: length of a block [s]'
 complete -c rotid -n '__fish_seen_subcommand_from ema' -l pretrigger -x -d 'time records: part of a block before the impact [s]'
