@@ -323,28 +323,28 @@ static void put_two_parts(const char *name, int tied)
     assert_int_equal(fclose(out), 0);
 }
 
-/* A table of four points over one reference, one line for each of two modes; files of one test differ in order and digits, in
- * which noise is that of `seed`. */
-static void put_table(const char *name, int seed, int last, int digits)
+/* A table of up to four points over one reference, one line for each of two modes; files of one test differ in order and digits,
+ * in which noise is that of `seed`. */
+static void put_table(const char *name, int seed, int last, int digits, int points)
 {
     const double phi[2][4] = {{1, 0.5, -0.4, -0.9}, {-1, 0.3, 0.8, -0.6}}, at_hz[2] = {80, 130};
     struct random_stream random = {(uint64_t)seed};
     FILE *out = create(name);
     (void)fputs("frequency [Hz]", out);
-    for (int c = 0; c < 4; c++)
-        (void)fprintf(out, ";%d/1 real;%d/1 imaginary", (c + last) % 4 + 1, (c + last) % 4 + 1);
+    for (int c = 0; c < points; c++)
+        (void)fprintf(out, ";%d/1 real;%d/1 imaginary", (c + last) % points + 1, (c + last) % points + 1);
     (void)fputc('\n', out);
     for (int i = 0; i < 400; i++) {
         double f = 50 + 0.25 * i;
         double complex h[4] = {0};
-        for (int c = 0; c < 4; c++) {
+        for (int c = 0; c < points; c++) {
             for (int k = 0; k < 2; k++)
                 h[c] += phi[k][c] * phi[k][0] * f * f / (at_hz[k] * at_hz[k] - f * f + I * 0.02 * at_hz[k] * f);
             h[c] += 1e-2 * (random_normal(&random) + I * random_normal(&random));
         }
         (void)fprintf(out, "%g", f);
-        for (int c = 0; c < 4; c++)
-            (void)fprintf(out, ";%.*g;%.*g", digits, creal(h[(c + last) % 4]), digits, cimag(h[(c + last) % 4]));
+        for (int c = 0; c < points; c++)
+            (void)fprintf(out, ";%.*g;%.*g", digits, creal(h[(c + last) % points]), digits, cimag(h[(c + last) % points]));
         (void)fputc('\n', out);
     }
     assert_int_equal(fclose(out), 0);
@@ -353,11 +353,51 @@ static void put_table(const char *name, int seed, int last, int digits)
 /* The same records in another order, or with other digits, have no scatter either. */
 UNIT_TEST(two_files_of_one_test_are_no_two_tests)
 {
-    put_table("first.csv", 1, 0, 12);
-    put_table("again.csv", 1, 1, 6);
-    put_table("second.csv", 2, 0, 12);
+    put_table("first.csv", 1, 0, 12, 4);
+    put_table("again.csv", 1, 1, 6, 4);
+    put_table("second.csv", 2, 0, 12, 4);
     ema_says("first.csv second.csv -o both.unv", 0, "the means of 2 tests");
     ema_says("first.csv second.csv again.csv -o all.unv", 2, "/1 is that of first.csv, expected another test");
+}
+
+/* What no file of the two alone stands for; a card that a deck takes. */
+UNIT_TEST(means_are_of_no_file_alone)
+{
+    size_t length;
+    put_table("first.csv", 1, 0, 12, 4);
+    put_table("second.csv", 2, 0, 12, 3);
+    ema_says("first.csv second.csv -o both.unv", 0, "1 point left out of the shapes");
+    assert_non_null(strstr(uff_output, "*NOISE, FREQUENCY="));
+    assert_non_null(strstr(uff_output, ", SHAPE="));
+    char *text = read_file("both.unv", &length);
+    assert_non_null(strstr(text, "from 2 tests"));
+    assert_null(strstr(text, "first.csv"));
+    assert_non_null(strstr(text, "ROTID HAMMER AT NODE 1")); /* of both */
+    free(text);
+}
+
+UNIT_TEST(nodes_that_lie_elsewhere_in_another_test_are_told)
+{
+    for (int moved = 0; moved < 2; moved++) {
+        const struct uff_node node = {.id = 2, .x = {0, 0, moved ? 0.5002 : 0.500001}}; /* for 0.5 */
+        const struct uff_function f = function(UFF_TRANSFER, 2, 641);
+        FILE *stream = create("elsewhere.uff");
+        assert_status(uff_write_nodes(stream, 2411, 1, &node), ROTID_OK);
+        put_function(stream, &f, 1, INFINITY);
+        assert_int_equal(fclose(stream), 0);
+        make_excerpt("bar.uff");
+        (void)program("ema", "bar.uff elsewhere.uff");
+        assert_int_equal(strstr(uff_output, "elsewhere.uff:1:1: warning: nodes are up to ") != NULL, moved);
+    }
+}
+
+UNIT_TEST(one_point_tells_nothing_of_the_scatter_of_shapes)
+{
+    put_table("one.csv", 1, 0, 12, 1);
+    put_table("two.csv", 2, 0, 12, 1);
+    ema_says("one.csv two.csv", 0,
+             "the scatter of shapes is not known: it takes two points that every test has\n*NOISE, FREQUENCY=");
+    assert_null(strstr(uff_output, "SHAPE"));
 }
 
 UNIT_TEST(points_that_nothing_ties_to_the_others_are_told)

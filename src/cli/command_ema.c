@@ -2,17 +2,19 @@
 
 #include <complex.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-#define DIGITS 1e-5 /* of a function: what six digits in a file leave of it */
+#define DIGITS     1e-5 /* of a function: what six digits in a file leave of it */
+#define SAME_PLACE 1e-5 /* m */
 
 /* Whole or not there. */
-static int write_modes(struct command *command, const struct measurement *measurement, const struct ema *ema)
+static int write_modes(struct command *command, const char *source, const struct measurement *measurement, const struct ema *ema)
 {
     struct output output;
     int status = output_open(&output, command->output);
     if (!status)
-        status = output_close(&output, modes_write(output.stream, command->deck, "rotid " ROTID_VERSION, measurement, ema));
+        status = output_close(&output, modes_write(output.stream, source, "rotid " ROTID_VERSION, measurement, ema));
     if (status == ROTID_ERROR_IO)
         return terminal_end(EXIT_INTERNAL, "rotid: %s: cannot be written: %s\n", command->output, output_error());
     return status ? command_fail(command, status) : EXIT_DONE;
@@ -128,11 +130,11 @@ static int extract_modes(struct command *command, struct ema_options *options, s
 }
 
 /* The file of the modes, where --output asks for it and there is one. */
-static int write_output(struct command *command, const struct measurement *measurement, const struct ema *ema)
+static int write_output(struct command *command, const char *source, const struct measurement *measurement, const struct ema *ema)
 {
     if (command->output && !ema->nmode)
         terminal_say("rotid: %s: not written, there is no mode\n", command->output);
-    return command->output && ema->nmode ? write_modes(command, measurement, ema) : EXIT_DONE;
+    return command->output && ema->nmode ? write_modes(command, source, measurement, ema) : EXIT_DONE;
 }
 
 /* Whether two tests have the same modes to the last digit: one that is given twice has no scatter. */
@@ -168,11 +170,47 @@ static const struct frf *shared(const struct frf_set *a, const struct frf_set *b
     return NULL;
 }
 
+ORDER_BY(by_id, struct uff_node, it->id, 0)
+
+/* The transfer functions and the nodes of all tests, which the means are of. */
+static int join(struct command *command, int count, const struct measurement *test, struct measurement *out)
+{
+    int functions = 0, nodes = 0;
+    for (int t = 0; t < count; t++) {
+        functions += test[t].set.nfrf;
+        nodes += test[t].node_count;
+    }
+    *out = (struct measurement){.set = {.frf = POOL_ARRAY(&command->pool, struct frf, functions)},
+                                .node = POOL_ARRAY(&command->pool, struct uff_node, nodes)};
+    if (!out->set.frf || !out->node)
+        return ROTID_ERROR_MEMORY;
+    for (int t = 0; t < count; t++) {
+        int before = out->node_count;
+        double apart = 0;
+        for (int c = 0; c < test[t].set.nfrf; c++)
+            out->set.frf[out->set.nfrf++] = test[t].set.frf[c];
+        for (int i = 0; i < test[t].node_count; i++) {
+            const struct uff_node *node = &test[t].node[i],
+                                  *known = before ? bsearch(node, out->node, (size_t)before, sizeof *node, by_id) : NULL;
+            if (!known)
+                out->node[out->node_count++] = *node;
+            for (int a = 0; a < 3 && known; a++)
+                apart = fmax(apart, fabs(known->x[a] - node->x[a]));
+        }
+        if (apart > SAME_PLACE)
+            message_add(&command->messages, SEVERITY_WARNING, command->file[t], 1, 1,
+                        "nodes are up to %.2g m from where a file before it has them, whose coordinates are used", apart);
+        if (out->node_count)
+            qsort(out->node, (size_t)out->node_count, sizeof *out->node, by_id);
+    }
+    return ROTID_OK;
+}
+
 /* Several tests of one structure: their mean, and the scatter between them. */
 static int command_ema_tests(struct command *command)
 {
     int count = command->nfile, code = EXIT_DONE;
-    struct measurement *measurement = POOL_ARRAY(&command->pool, struct measurement, count);
+    struct measurement *measurement = POOL_ARRAY(&command->pool, struct measurement, count), all;
     struct ema *test = POOL_ARRAY(&command->pool, struct ema, count), mean;
     struct ema_scatter scatter;
     if (!measurement || !test)
@@ -199,11 +237,14 @@ static int command_ema_tests(struct command *command)
         }
     }
     command->deck = command->file[0];
-    int status = ema_average(&command->pool, count, test, &mean, &scatter);
+    int status = join(command, count, measurement, &all);
+    if (!status)
+        status = ema_average(&command->pool, count, test, &mean, &scatter);
     if (status)
         return command_fail(command, status);
+    command_print_messages(command);
     code = mean.nmode ? code : EXIT_DOUBTFUL;
-    int failed = write_output(command, measurement, &mean);
+    int failed = write_output(command, pool_text(&command->pool, "%d tests", count), &all, &mean);
     if (failed)
         return failed;
     if (command_wants_table(command)) {
@@ -231,7 +272,7 @@ int command_ema(struct command *command)
                                       .options = &options,
                                       .ema = &ema,
                                       .seconds = clock_seconds() - started};
-    int failed = write_output(command, &measurement, &ema);
+    int failed = write_output(command, command->deck, &measurement, &ema);
     if (failed)
         return failed;
     if (command_wants_table(command)) {

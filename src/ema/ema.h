@@ -166,16 +166,20 @@ struct ema { /* everything on the pool */
 
 /* What several tests of one structure say of their repeatability. */
 struct ema_scatter {
-    int tests, missing;      /* modes of the first test that another one does not have */
-    int lacking;             /* points, each along its axis, that some test does not have: the shapes are without them */
-    double *std_hz;          /* [mean.nmode] of one test, by each mode's own few */
-    double frequency, shape; /* of one test, over all modes: relative; of the largest component. NaN without a mode */
+    int tests, missing;               /* modes of the test with the most that are not in every test */
+    int lacking;                      /* points, each along its axis, that some test does not have: the shapes are without them */
+    double *std_hz, *std_damping;     /* [mean.nmode] of one test, by each mode's own few */
+    double frequency, damping, shape; /* of one test, over all modes: relative; of the rms damping of the tests; of the largest
+                                         component. NaN without a mode, of the shape also with one point */
 };
 
-/* Modes of count >= 2 tests as one: a mode of the first test counts where every other has one of its shape (MAC above 0.8 over
- * the points of both, frequency within 5 %). mean: frequencies and shapes (each at the scale that is nearest to the first)
- * averaged, their standard deviations s/sqrt(count) of the scatter s of one test, which is pooled over all modes and points since
- * few tests tell little of a single one; the rest as in the first test. ROTID_OK, ROTID_ERROR_MEMORY. */
+/* Modes of count >= 2 tests as one. The test that is most like the others is assigned to each of them, mode to mode, so that the
+ * sum of the distances in MAC and frequency is least (MAC above 0.8 over the points of all, frequency within 5 %); a mode counts
+ * that every test has. mean: the points of all; frequency, damping, shapes (real and complex, each test at the scale that is
+ * nearest to the mean, largest component 1), modal mass in that scale averaged, MPC and MPD of the mean shape, flags of any test;
+ * nothing of residues, channels and poles. Standard deviations are s/sqrt(count) of the scatter s of one test, which is pooled
+ * over all modes and points since few tests tell little of a single one: (count - 1)(points - 1) degrees of freedom for a shape.
+ * Nothing depends on the order of the tests but numbers of modes and points. ROTID_OK, ROTID_ERROR_MEMORY. */
 int ema_average(struct pool *pool, int count, const struct ema test[], struct ema *mean, struct ema_scatter *scatter);
 
 /* Modes of a set of transfer functions: stabilisation table by least-squares complex frequency domain (Guillaume, Verboven,

@@ -354,6 +354,23 @@ void screen_ema(const struct screen *to, const struct ema_report *r)
         (void)fprintf(to->out, "\n%d %s written to %s\n", ema->nmodes, human_plural(ema->nmodes, "mode", "modes"), r->output);
 }
 
+/* The card of it, as far as it is known: zero is refused there. */
+static void print_noise(const struct screen *to, const struct ema_scatter *scatter)
+{
+    struct pool *pool = to->pool;
+    int hz = scatter->frequency > 0, shape = scatter->shape > 0;
+    screen_say(to, "between tests frequencies repeat within %.2g %%%s%s", 100 * scatter->frequency,
+               isfinite(scatter->damping) ? pool_text(pool, ", dampings within %.2g %%", 100 * scatter->damping) : "",
+               shape ? pool_text(pool, ", shapes within %.2g %% of the largest component", 100 * scatter->shape) : "");
+    if (!hz)
+        screen_say(to, "the frequencies are the same in all tests, which tells nothing of their scatter");
+    if (!shape)
+        screen_say(to, "the scatter of shapes is not known: it takes two points that every test has");
+    if (hz || shape)
+        screen_say(to, "*NOISE%s%s", hz ? pool_text(pool, ", FREQUENCY=%.2g", scatter->frequency) : "",
+                   shape ? pool_text(pool, ", SHAPE=%.2g", scatter->shape) : "");
+}
+
 void screen_scatter(const struct screen *to, int count, const char *const *file, const struct ema test[], const struct ema *mean,
                     const struct ema_scatter *scatter, const char *output)
 {
@@ -367,19 +384,18 @@ void screen_scatter(const struct screen *to, int count, const char *const *file,
         number_column(table, "frequency", "Hz", SHOW_DIGITS(8), mode->frequency_hz);
         number_column(table, "scatter", "Hz", SHOW_DIGITS(2), scatter->std_hz[k]);
         number_column(table, "scatter", "%", SHOW_DIGITS(2), 100 * scatter->std_hz[k] / mode->frequency_hz);
+        number_column(table, "damping", "%", SHOW_DIGITS(4), 100 * mode->damping);
+        number_column(table, "scatter", "%", SHOW_DIGITS(2), 100 * scatter->std_damping[k]);
     }
     screen_table(to, table);
     if (scatter->missing)
-        screen_say(to, "%d %s of %s left out: not in every test", scatter->missing,
-                   human_plural(scatter->missing, "mode", "modes"), file[0]);
+        screen_say(to, "%d %s of the test with the most left out: not in every test", scatter->missing,
+                   human_plural(scatter->missing, "mode", "modes"));
     if (scatter->lacking)
         screen_say(to, "%d %s left out of the shapes: not in every test along the same axis", scatter->lacking,
                    human_plural(scatter->lacking, "point", "points"));
     if (mean->nmode)
-        screen_say(to,
-                   "between tests frequencies repeat within %.2g %%, shapes within %.2g %% of the largest component:\n*NOISE, "
-                   "FREQUENCY=%.2g, SHAPE=%.2g",
-                   100 * scatter->frequency, 100 * scatter->shape, scatter->frequency, scatter->shape);
+        print_noise(to, scatter);
     else
         screen_say(to, "no mode is in every test");
     if (output)
