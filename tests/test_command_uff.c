@@ -168,6 +168,23 @@ UNIT_TEST(a_truncated_file_is_listed_and_has_no_tables)
     assert_int_equal(count_files("out"), 0);
 }
 
+/* The first mode bends in y, the second one in z, with a tenth of it in the other plane: one table cannot have both. */
+UNIT_TEST(modes_of_two_planes_are_warned_of)
+{
+    FILE *stream = create("planes.uff");
+    for (int k = 0; k < 2; k++) {
+        (void)fprintf(stream, "    -1\n    55\nmode\nNONE\nNONE\nNONE\nNONE\n%10d%10d%10d%10d%10d%10d\n%10d%10d%10d%10d\n", 1, 2,
+                      2, 8, 2, 3, 2, 4, 1, k + 1);
+        (void)fprintf(stream, "%13.5e%13.5e%13.5e%13.5e\n", 100. + 150 * k, 1., 0.01, 0.);
+        for (int n = 1; n <= 3; n++)
+            (void)fprintf(stream, "%10d\n%13.5e%13.5e%13.5e\n", n, 0., k ? 0.1 : n - 2.5, k ? n - 2.5 : 0.2);
+        (void)fputs("    -1\n", stream);
+    }
+    assert_int_equal(fclose(stream), 0);
+    says("planes.uff --csv out", 0, "mode 1 moves most along y, written is what it moves along z");
+    assert_null(strstr(uff_output, "mode 2 moves most"));
+}
+
 UNIT_TEST(a_full_disk_is_told)
 {
     make_sound("sound.uff");

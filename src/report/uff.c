@@ -1,6 +1,7 @@
 /* A universal file: the struct of its JSON, its modes as tables, and what `rotid uff` shows. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "report/report.h"
 
@@ -94,26 +95,50 @@ static int take_nodes(struct pool *pool, const struct uff_file *file, struct uni
     return ROTID_OK;
 }
 
-/* The value of a node in which all modes together, each to its largest value, move most. */
-static int largest_direction(const struct universal *u)
+/* Shares of the directions in the squares of a mode of several values at a node; zeros of one value. */
+static void shares_of(const struct uff_shape *mode, double share[6])
 {
-    double sum[6] = {0};
-    int most = 0;
-    for (int k = 0; k < u->count; k++) {
-        const struct uff_shape *mode = u->mode[k];
-        double of[6] = {0}, all = 0;
-        for (int i = 0; i < mode->node_count * mode->component_count; i++) {
-            int c = mode->component_count == 1 ? 0 : i % mode->component_count;
-            double square = mode->real[i] * mode->real[i] + (mode->imag ? mode->imag[i] * mode->imag[i] : 0);
-            of[c] += square;
-            all += square;
-        }
-        for (int c = 0; c < mode->component_count && mode->component_count > 1 && all > 0; c++)
-            sum[c] += of[c] / all;
+    double all = 0;
+    memset(share, 0, 6 * sizeof *share);
+    if (mode->component_count == 1)
+        return;
+    for (int i = 0; i < mode->node_count * mode->component_count; i++) {
+        double square = mode->real[i] * mode->real[i] + (mode->imag ? mode->imag[i] * mode->imag[i] : 0);
+        share[i % mode->component_count] += square;
+        all += square;
     }
+    for (int c = 0; c < 6 && all > 0; c++)
+        share[c] /= all;
+}
+
+static int largest_of(const double share[6])
+{
+    int most = 0;
     for (int c = 1; c < 3; c++)
-        most = sum[c] > sum[most] ? c : most;
+        most = share[c] > share[most] ? c : most;
     return most;
+}
+
+/* The value of a node in which all modes together move most. Modes that move more in another one are warned of. */
+static int largest_direction(const struct universal *u, const char *path, struct message_list *messages)
+{
+    double sum[6] = {0}, share[6];
+    for (int k = 0; k < u->count; k++) {
+        shares_of(u->mode[k], share);
+        for (int c = 0; c < 6; c++)
+            sum[c] += share[c];
+    }
+    int direction = largest_of(sum);
+    for (int k = 0; k < u->count; k++) {
+        shares_of(u->mode[k], share);
+        if (share[largest_of(share)] > share[direction])
+            message_add(
+                messages, SEVERITY_WARNING, path, 1, 1,
+                "mode %d moves most along %c, written is what it moves along %c as the modes together do: expected a file "
+                "for each plane",
+                u->number[k], "xyz"[largest_of(share)], "xyz"[direction]);
+    }
+    return direction;
 }
 
 static int component_of(const struct universal *u, const struct uff_shape *shape)
@@ -193,7 +218,7 @@ static int read_universal(struct pool *pool, const char *path, struct message_li
     uff_mode_numbers(&file, u->count, u->mode, u->number);
     for (int k = 0; k < u->count; k++)
         u->frequency_std[k] = NAN;
-    u->direction = largest_direction(u);
+    u->direction = largest_direction(u, path, messages);
     status = take_nodes(pool, &file, u);
     return status ? status : take_shapes(pool, u, &file);
 }
