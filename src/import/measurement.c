@@ -559,7 +559,7 @@ static int refuse_file(struct message_list *messages, const char *path, const st
     if (!messages->errors)
         message_add(messages, SEVERITY_ERROR, path, 1, 1,
                     "%d functions, none of them a transfer function (58, type 4) or a time record of a force with a response "
-                    "(type 1, specific data types 13 and 8, 11 or 12), expected one or the other",
+                    "(type 1, real, stored with even steps, specific data types 13 and 8, 11 or 12), expected one or the other",
                     c->count);
     return ROTID_ERROR_ARGUMENT;
 }
