@@ -93,24 +93,24 @@ int joint_chi2(struct pool *pool, const struct rival *b, const struct test *test
 
 #define MOST_OF_SET 3 /* rivals, of which all pairs are taken */
 
-static int one_pair(struct pool *pool, const struct rivals *rivals, const struct rival *a, const struct rival *b,
-                    const struct places *places, double frequency_std, double shape_std, struct design *d)
+static int one_pair(struct pool *pool, struct pool *scratch, const struct rivals *rivals, const struct rival *a,
+                    const struct rival *b, const struct places *places, double frequency_std, double shape_std, struct design *d)
 {
-    struct columns *c = POOL_NEW(pool, struct columns);
+    struct columns *c = POOL_NEW(scratch, struct columns);
     const struct planned plan = {rivals->nmode, rivals->number, frequency_std, shape_std};
     struct job source, job;
     int n = b->fit->n, used = 0, q = 0;
     for (int p = 0; p < n; p++)
         used += rival_uses(b, p);
-    int status = c ? planned_sensors(pool, &a->job, places->n, places->z, &source) : ROTID_ERROR_MEMORY;
+    int status = c ? planned_sensors(scratch, &a->job, places->n, places->z, &source) : ROTID_ERROR_MEMORY;
     if (!status)
-        status = planned_measure(pool, &source, a->x, &plan, &source);
+        status = planned_measure(scratch, &source, a->x, &plan, &source);
     if (!status)
-        status = planned_sensors(pool, &b->job, places->n, places->z, &job);
+        status = planned_sensors(scratch, &b->job, places->n, places->z, &job);
     if (status)
         return status;
     job.measurement = source.measurement;
-    status = columns_open(pool, &job, job.measurement.number, job.measurement.holdout, NULL, b->x, c);
+    status = columns_open(scratch, &job, job.measurement.number, job.measurement.holdout, NULL, b->x, c);
     if (!status)
         status = columns_prepare(c);
     if (!status)
@@ -152,8 +152,11 @@ static int pair_designs(struct pool *pool, const struct rivals *rivals, const st
         for (int b = 0; b < (set > 1 ? most : 2); b++) {
             if (a == b)
                 continue;
-            int status = one_pair(pool, rivals, &rivals->rival[a], &rivals->rival[b], places, frequency_std, shape_std,
+            struct pool scratch; /* the models of a pair go before those of the next one come */
+            pool_open(&scratch, pool->allocator);
+            int status = one_pair(pool, &scratch, rivals, &rivals->rival[a], &rivals->rival[b], places, frequency_std, shape_std,
                                   *design + *ndesign);
+            pool_close(&scratch);
             if (status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED)
                 return status;
             *ndesign += !status;

@@ -82,24 +82,22 @@ static int factor_both(struct pool *pool, const struct rival *rival, const int *
     return ROTID_OK;
 }
 
-/* Rival b where `measured` is what rival a would give in that state. ROTID_OK, memory, or a status that says that it has no
- * model or no partner there. */
-static int side_open(struct pool *pool, const struct rival *b, const struct test *test, const struct job_measurement *measured,
-                     struct side *s)
+static int side_make(struct pool *pool, struct pool *scratch, const struct rival *b, const struct test *test,
+                     const struct job_measurement *measured, struct side *s)
 {
-    struct columns *c = POOL_NEW(pool, struct columns);
+    struct columns *c = POOL_NEW(scratch, struct columns);
     int nparameter = b->job.unknowns.nparameter;
-    double *x = POOL_ARRAY(pool, double, nparameter);
-    int *own = POOL_ARRAY(pool, int, nparameter), *own_of_all = POOL_ARRAY(pool, int, b->fit->n);
+    double *x = POOL_ARRAY(scratch, double, nparameter);
+    int *own = POOL_ARRAY(scratch, int, nparameter), *own_of_all = POOL_ARRAY(scratch, int, b->fit->n);
     struct job job;
     *s = (struct side){0};
     if (!c || !x || !own || !own_of_all)
         return ROTID_ERROR_MEMORY;
-    int status = test_apply(pool, test, &b->job, b->x, &job, x, own);
+    int status = test_apply(scratch, test, &b->job, b->x, &job, x, own);
     if (status)
         return status;
     job.measurement = *measured;
-    status = columns_open(pool, &job, measured->number, measured->holdout, NULL, x, c);
+    status = columns_open(scratch, &job, measured->number, measured->holdout, NULL, x, c);
     if (!status)
         status = columns_prepare(c);
     if (status)
@@ -118,6 +116,18 @@ static int side_open(struct pool *pool, const struct rival *b, const struct test
         return ROTID_ERROR_MEMORY;
     status = take_columns(c, b, x, s);
     return status ? status : factor_both(pool, b, own_of_all, s);
+}
+
+/* Rival b where `measured` is what rival a would give in that state. ROTID_OK, memory, or a status that says that it has no
+ * model or no partner there. Its model goes before that of the next rival comes: of a solid it takes 100 MB. */
+static int side_open(struct pool *pool, const struct rival *b, const struct test *test, const struct job_measurement *measured,
+                     struct side *s)
+{
+    struct pool scratch;
+    pool_open(&scratch, pool->allocator);
+    int status = side_make(pool, &scratch, b, test, measured, s);
+    pool_close(&scratch);
+    return status;
 }
 
 /* Q(z) */

@@ -48,13 +48,14 @@ static int number_of(const struct planned *plan, int k)
     return plan->number ? plan->number[k] : k + 1;
 }
 
-int planned_measure(struct pool *pool, const struct job *source, const double *x, const struct planned *plan, struct job *to)
+static int measure(struct pool *pool, struct pool *scratch, const struct job *source, const double *x, const struct planned *plan,
+                   struct job *to)
 {
     int highest = 0, n = source->rotor.nsensor, modes = plan->modes;
     struct spectrum s;
     for (int k = 0; k < modes; k++)
         highest = number_of(plan, k) > highest ? number_of(plan, k) : highest;
-    int status = spectrum_compute_parts(pool, source->models, &source->rotor, source->unknowns.nparameter,
+    int status = spectrum_compute_parts(scratch, source->models, &source->rotor, source->unknowns.nparameter,
                                         source->unknowns.parameter, x, ROTID_REDUCTION_NONE, highest, 0, &s);
     if (status || s.count < highest)
         return status ? status : ROTID_ERROR_ARGUMENT;
@@ -86,6 +87,15 @@ int planned_measure(struct pool *pool, const struct job *source, const double *x
     to->options.fit.reduction = ROTID_REDUCTION_NONE;
     to->options.fit.derivative = ROTID_NELSON;
     return ROTID_OK;
+}
+
+int planned_measure(struct pool *pool, const struct job *source, const double *x, const struct planned *plan, struct job *to)
+{
+    struct pool scratch; /* of the modes alone what is measured stays */
+    pool_open(&scratch, pool->allocator);
+    int status = measure(pool, &scratch, source, x, plan, to);
+    pool_close(&scratch);
+    return status;
 }
 
 int planned_test(struct pool *pool, const struct job *job, const double *x, int n, const double *z, const struct planned *plan,
