@@ -25,7 +25,7 @@ static rotid_diagnosis *make_result(struct call *call, const struct states *stat
         return NULL;
     /* the diagnosis stands without a deck; notes with a place are taken for those of reading, which were said before */
     for (size_t i = 0; i < refusals.count && !text; i++)
-        message_add(&call->notes, SEVERITY_WARNING, NULL, 0, 0, "%s", refusals.item[i].text);
+        message_warn(&call->notes, "%s", refusals.item[i].text);
     rotid_diagnosis *made = result_diagnosis(pool, d->given.nstate ? &d->given : states, d);
     made->extended_deck = text;
     /* what changed between two states is judged in the rotor of the second one, which is not that of the machine */

@@ -58,8 +58,8 @@ int machine_fit_all(struct call *call, const struct states *states, rotid_fit_re
     if (!states->nparameter && !states->machine->nunknown)
         return ROTID_OK;
     if (!states_modes(states, states->nstate)) {
-        message_add(&call->notes, SEVERITY_WARNING, NULL, 0, 0,
-                    "no mode was measured: the model is taken as the deck states it, not at identified parameters");
+        message_warn(&call->notes,
+                     "no mode was measured: the model is taken as the deck states it, not at identified parameters");
         return ROTID_OK;
     }
     int status = found ? runup_join(pool, states, &call->notes, &joined, &runup) : ROTID_ERROR_MEMORY;

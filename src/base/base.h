@@ -191,9 +191,10 @@ struct message_list {
 void message_open(struct message_list *list, struct pool *pool);
 void message_add(struct message_list *list, enum severity severity, const char *file, int line, int column, const char *format,
                  ...) __attribute__((format(printf, 6, 7)));
-/* The same of an error. Returns status. */
-int message_refuse(struct message_list *list, int status, const char *file, int line, int column, const char *format, ...)
-    __attribute__((format(printf, 6, 7)));
+/* A warning without a place; an error, with which a routine ends: its status. */
+#define message_warn(list, ...) message_add((list), SEVERITY_WARNING, NULL, 0, 0, __VA_ARGS__)
+#define message_refuse(list, status, file, line, column, ...)                                                                    \
+    (message_add((list), SEVERITY_ERROR, (file), (line), (column), __VA_ARGS__), (status))
 /* The texts of the warnings (pool) and how many there are; NULL where memory is out. */
 const char **message_warnings(const struct message_list *list, struct pool *pool, int *count);
 /* The errors with their places, "; " between them; "" of none. */

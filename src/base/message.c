@@ -8,11 +8,14 @@ void message_open(struct message_list *list, struct pool *pool)
     *list = (struct message_list){.pool = pool};
 }
 
-static void add(struct message_list *list, enum severity severity, const char *file, int line, int column, const char *format,
-                va_list values)
+void message_add(struct message_list *list, enum severity severity, const char *file, int line, int column, const char *format,
+                 ...)
 {
     char text[1024];
+    va_list values;
+    va_start(values, format);
     (void)vsnprintf(text, sizeof text, format, values);
+    va_end(values);
     size_t errors = list->errors < MESSAGE_LIMIT ? (size_t)list->errors : MESSAGE_LIMIT; /* kept */
     int is_error = severity == SEVERITY_ERROR;
     list->errors += is_error;
@@ -25,24 +28,6 @@ static void add(struct message_list *list, enum severity severity, const char *f
     char *place = copy && file ? pool_copy_text(list->pool, file) : NULL;
     if (copy && (!file || place))
         list->item[list->count++] = (rotid_message){severity, line, column, place, copy};
-}
-
-void message_add(struct message_list *list, enum severity severity, const char *file, int line, int column, const char *format,
-                 ...)
-{
-    va_list values;
-    va_start(values, format);
-    add(list, severity, file, line, column, format, values);
-    va_end(values);
-}
-
-int message_refuse(struct message_list *list, int status, const char *file, int line, int column, const char *format, ...)
-{
-    va_list values;
-    va_start(values, format);
-    add(list, SEVERITY_ERROR, file, line, column, format, values);
-    va_end(values);
-    return status;
 }
 
 const char **message_warnings(const struct message_list *list, struct pool *pool, int *count)

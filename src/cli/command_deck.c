@@ -127,8 +127,8 @@ int command_fit_deck(struct command *command, int wanted, const char *what, stru
     if (wanted && measured)
         status = fit_all(command, states, found, fit);
     else if (wanted && states->nparameter)
-        message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
-                    "no mode was measured: the model is taken as the deck states it, not at identified parameters");
+        message_warn(&command->messages,
+                     "no mode was measured: the model is taken as the deck states it, not at identified parameters");
     if (status)
         return command_fail(command, status);
     for (int i = 0; i < fit->count; i++) {
@@ -147,8 +147,8 @@ int command_judge_fit(struct command *command, const struct command_fit *fit, co
         return EXIT_DONE;
     int doubtful = fit->fit->n && (!fit->fit->converged || fit->fit->any_at_bound || fit->fit->any_undetermined);
     if (doubtful)
-        message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
-                    "the identification is not reliable (not converged, at a bound or undetermined): see rotid identify");
+        message_warn(&command->messages,
+                     "the identification is not reliable (not converged, at a bound or undetermined): see rotid identify");
     for (int i = 0; i < fit->count; i++)
         identify_warn_of_reduction(fit->state[i].job, &fit->state[i].identified, done, &command->messages);
     return doubtful ? EXIT_DOUBTFUL : EXIT_DONE;

@@ -109,9 +109,9 @@ static int extract_modes(struct command *command, struct ema_options *options, s
     if (!status && !options->per_point && is_moving(set, ema)) {
         options->per_point = 1;
         status = ema_compute(&command->pool, set, options, &environment, ema);
-        message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
-                    "frequencies differ from point to point, as with one accelerometer that goes round: they are taken at each "
-                    "point as well (--per-point), and identify and diagnose allow for its mass");
+        message_warn(&command->messages,
+                     "frequencies differ from point to point, as with one accelerometer that goes round: they are taken at each "
+                     "point as well (--per-point), and identify and diagnose allow for its mass");
     }
     if (!status)
         note_untied(command, ema);

@@ -29,12 +29,12 @@ static int judge_condensed(struct command *command, const struct job *job, const
         if (!(fabs(s->reduction_error_percent[j]) <= REDUCTION_DOUBTFUL))
             worst = j;
     if (worst >= 0 && isfinite(s->reduced_hz[worst]))
-        message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
-                    "the condensed model has mode %d at %.6g Hz, %+.1f %% off: %d masters are too few for it", worst + 1,
-                    s->reduced_hz[worst], s->reduction_error_percent[worst], c->count);
+        message_warn(&command->messages,
+                     "the condensed model has mode %d at %.6g Hz, %+.1f %% off: %d masters are too few for it", worst + 1,
+                     s->reduced_hz[worst], s->reduction_error_percent[worst], c->count);
     else if (worst >= 0)
-        message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
-                    "the condensed model has no mode %d: %d masters are too few for it", worst + 1, c->count);
+        message_warn(&command->messages, "the condensed model has no mode %d: %d masters are too few for it", worst + 1,
+                     c->count);
     return 0;
 }
 

@@ -45,9 +45,10 @@ static int report(struct command *command, int count, const struct frf_view *vie
     for (int i = 0; i < count && command->json; i++) {
         const struct frf_result *r = view[i].result;
         if ((double)r->nline * r->ndone > JSON_FRF_MOST_LINES && !told++)
-            message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
-                        "the JSON has no curves: %d functions of %d lines are more than %d values, expected --output for so many",
-                        r->ndone, r->nline, JSON_FRF_MOST_LINES);
+            message_warn(
+                &command->messages,
+                "the JSON has no curves: %d functions of %d lines are more than %d values, expected --output for so many",
+                r->ndone, r->nline, JSON_FRF_MOST_LINES);
     }
     if (shown)
         screen_heading(&to, &command->head);

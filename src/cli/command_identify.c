@@ -11,7 +11,7 @@ static int show(struct command *command, rotid_identification *found)
     command_take_messages(command, NULL, found->nmessage, found->message);
     const char *steps = doubt_steps(&command->pool, command->job);
     if (steps)
-        message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0, "%s", steps);
+        message_warn(&command->messages, "%s", steps);
     if (command_wants_table(command)) {
         const struct screen to = command_screen(command);
         screen_identify(&to, &result, !command->no_baseline);

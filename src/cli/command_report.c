@@ -60,8 +60,7 @@ int command_report(struct command *command)
     if (status && !(is_read && status == ROTID_ERROR_IO))
         return command_fail(command, status);
     if (!*page_script && !status)
-        message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
-                    "no figures: this program was built without D3; tools/setup, then make, embeds it");
+        message_warn(&command->messages, "no figures: this program was built without D3; tools/setup, then make, embeds it");
     command_print_messages(command);
     if (status)
         return EXIT_INTERNAL;

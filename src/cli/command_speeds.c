@@ -71,7 +71,7 @@ static int run(struct command *command, const struct states *states, const rotid
     if (status < 0)
         return command_fail(command, status);
     if (status > 0) {
-        message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0, "interrupted: the critical speeds have no bands");
+        message_warn(&command->messages, "interrupted: the critical speeds have no bands");
         code = EXIT_DOUBTFUL;
     }
     struct result result = {.head = command->head, .speeds = speeds};

@@ -12,8 +12,8 @@ static int write_tables(struct command *command, int code)
     if (status)
         return command_fail(command, status);
     if (tables.points)
-        message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
-                    "the frequencies at single points stand in no table: *MEASURED reads them from the universal file");
+        message_warn(&command->messages,
+                     "the frequencies at single points stand in no table: *MEASURED reads them from the universal file");
     command_print_messages(command);
     return command_write_csv(command, names, tables.table, code);
 }

@@ -79,7 +79,7 @@ static const struct deck_row bars[] = {
     {WHOLE(struct bars, number, "number of bars"), FROM_TO(3, 10000)},
     {ABOVE_0(struct bars, diameter, "diameter [m]")},
     {ABOVE_0(struct bars, pitch, "pitch radius [m]")},
-    {WHOLE(struct bars, elements, "number of elements"), FROM_TO(2, DECK_MOST_ELEMENTS)},
+    {WHOLE(struct bars, elements, "number of elements"), FROM_TO(2, DECK_MOST_ELEMENTS), .bits = ROW_MESH},
     LAST};
 static const struct deck_row clamp[] = {
     {.option = "NAME", .kind = ROW_NAME, IN(struct spring, name), OPTIONAL, .what = "name"},

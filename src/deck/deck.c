@@ -46,14 +46,11 @@ void deck_check_names(struct deck_reader *reader, const struct card *card)
 
 static void check_materials(struct deck_reader *reader)
 {
-    for (int m = 0; m < reader->nmaterial; m++) {
-        if (!(reader->material_complete[m] & 1))
-            deck_error(reader, reader->place[MATERIAL_PLACES][m], "material %s has no *ELASTIC, expected one behind *MATERIAL",
-                       reader->material[m].name);
-        if (!(reader->material_complete[m] & 2))
-            deck_error(reader, reader->place[MATERIAL_PLACES][m], "material %s has no *DENSITY, expected one behind *MATERIAL",
-                       reader->material[m].name);
-    }
+    for (int m = 0; m < reader->nmaterial; m++)
+        for (int bit = 0; bit < 2; bit++)
+            if (!(reader->material_complete[m] >> bit & 1))
+                deck_error(reader, reader->place[MATERIAL_PLACES][m], "material %s has no *%s, expected one behind *MATERIAL",
+                           reader->material[m].name, bit ? "DENSITY" : "ELASTIC");
 }
 
 /* Whether the NAMEs of two cards are of one set. Parameters are addressed by name, so groups (phases 2 and 3), rods, springs,

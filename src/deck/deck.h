@@ -266,8 +266,6 @@ int deck_has(const struct data_line *line, int i);
 int deck_count(struct deck_reader *reader, const struct data_line *line, int most);
 /* A number in metres, start, end, group.start or group.end, inside the rotor. */
 int deck_position(struct deck_reader *reader, const struct field *field, const char *what, double *z);
-/* The same of an option. */
-int deck_option_position(struct deck_reader *reader, const struct card_option *option, const char *what, double *z);
 
 /* The value of an option that must be there, or NULL after an error. */
 const char *deck_option(struct deck_reader *reader, const struct card *card, const char *name, const char *expected);

@@ -35,18 +35,11 @@ static const struct {
 
 const char **deck_name_of(const struct rotor *rotor, enum cause_target kind, int i)
 {
-    switch (kind) {
-    case TARGET_GROUP:
-        return i < rotor->ngroup ? &rotor->group[i].name : NULL;
-    case TARGET_SPRING:
-        return i < rotor->nspring ? &rotor->spring[i].name : NULL;
-    case TARGET_DISK:
-        return i < rotor->ndisk ? &rotor->disk[i].name : NULL;
-    case TARGET_TIEROD:
-        return i < rotor->ntierod ? &rotor->tierod[i].name : NULL;
-    default:
-        return NULL;
-    }
+    return kind == TARGET_GROUP && i < rotor->ngroup     ? &rotor->group[i].name
+           : kind == TARGET_SPRING && i < rotor->nspring ? &rotor->spring[i].name
+           : kind == TARGET_DISK && i < rotor->ndisk     ? &rotor->disk[i].name
+           : kind == TARGET_TIEROD && i < rotor->ntierod ? &rotor->tierod[i].name
+                                                         : NULL;
 }
 
 /* BETWEEN=left,core: two groups by name. */
@@ -84,7 +77,7 @@ static int read_interface(struct cause_card *c)
     if (!at)
         return !deck_option(c->reader, c->card, "BETWEEN", target_of[TARGET_INTERFACE].expected) || !between ||
                read_between(c, between);
-    if (deck_option_position(c->reader, at, "AT", &z))
+    if (deck_position(c->reader, &(struct field){at->value, at->value_place, 0}, "AT", &z))
         return 1;
     for (int g = 0; g + 1 < rotor_axis_groups(rotor); g++) {
         rotor_group_span(rotor, g, &from, &to);
@@ -171,21 +164,20 @@ static int read_target(struct cause_card *c)
     if (is_moving(c))
         return refuse_sensor(c);
     switch (c->kind->target) {
+    case TARGET_NONE:
+    case TARGET_MODES:
+        return 0;
     case TARGET_GROUP:
         return (c->effect.target = deck_option_group(c->reader, c->card, "GROUP")) < 0;
     case TARGET_INTERFACE:
         return read_interface(c);
-    case TARGET_SPRING:
-    case TARGET_DISK:
-    case TARGET_TIEROD:
-        return read_named(c);
     case TARGET_SENSOR:
     case TARGET_SENSORS:
         return read_sensors(c);
     case TARGET_BLOCK:
         return read_block(c);
     default:
-        return 0;
+        return read_named(c);
     }
 }
 

@@ -3,7 +3,6 @@
 #include "deck/deck_row.h"
 
 #include <math.h>
-#include <stddef.h>
 #include <string.h>
 
 struct comparing {
@@ -11,18 +10,17 @@ struct comparing {
     const char *card;
 };
 
-/* The first difference that nothing can be done about keeps its card. */
-static void differ(struct comparing *c, unsigned bit, const char *card)
+/* The first difference that nothing can be done about keeps its card. bits: 0: there is none. */
+static void differ(struct comparing *c, unsigned bits, const char *card)
 {
-    if (!(c->bits & DECK_OTHER_MODEL))
+    if (bits && !(c->bits & DECK_OTHER_MODEL))
         c->card = card;
-    c->bits |= bit;
+    c->bits |= bits;
 }
 
 static void require(struct comparing *c, int same, const char *card)
 {
-    if (!same)
-        differ(c, DECK_OTHER_MODEL, card);
+    differ(c, same ? 0 : DECK_OTHER_MODEL, card);
 }
 
 /* ------------------------------------------------------------------------------------------------ by rows */
@@ -39,10 +37,12 @@ static int is_same_material(const struct material *a, const struct material *b)
            (!a->laminated || (deck_is_near(a->sheet_e, b->sheet_e) && deck_is_near(a->stacking, b->stacking)));
 }
 
-static int is_same(const struct deck_row *row, const void *a, const void *b)
+/* Bits of how two structs differ in what the rows say. */
+static unsigned differences(const struct deck_row *row, const void *a, const void *b)
 {
-    int same = 1;
-    for (; !deck_row_is_last(row) && same; row++) {
+    unsigned bits = 0;
+    for (; !deck_row_is_last(row); row++) {
+        int same = 1;
         const void *p = (const char *)a + row->offset, *q = (const char *)b + row->offset;
         switch (row->kind) {
         case ROW_NAME:
@@ -63,18 +63,20 @@ static int is_same(const struct deck_row *row, const void *a, const void *b)
         default:
             break;
         }
+        bits |= same ? 0 : row->bits & ROW_MESH ? DECK_OTHER_ELEMENTS : DECK_OTHER_MODEL;
     }
-    return same;
+    return bits;
 }
 
-static int is_same_list(const struct deck_card *kind, const void *a, const void *b)
+static unsigned list_differences(const struct deck_card *kind, const void *a, const void *b)
 {
     const char *p = *(const char *const *)((const char *)a + kind->list),
                *q = *(const char *const *)((const char *)b + kind->list);
-    int count = *(const int *)((const char *)a + kind->count), same = count == *(const int *)((const char *)b + kind->count);
-    for (int i = 0; i < count && same; i++)
-        same = is_same(kind->row, p + (size_t)i * kind->size, q + (size_t)i * kind->size);
-    return same;
+    int count = *(const int *)((const char *)a + kind->count);
+    unsigned bits = count == *(const int *)((const char *)b + kind->count) ? 0 : DECK_OTHER_MODEL;
+    for (int i = 0; i < count && !(bits & DECK_OTHER_MODEL); i++)
+        bits |= differences(kind->row, p + (size_t)i * kind->size, q + (size_t)i * kind->size);
+    return bits;
 }
 
 /* ------------------------------------------------------------------------------------------------ rotors */
@@ -82,25 +84,11 @@ static int is_same_list(const struct deck_card *kind, const void *a, const void 
 static void compare_segments(struct comparing *c, const struct rotor *a, const struct rotor *b)
 {
     for (int s = 0; s < a->nsegment; s++) {
-        struct segment p = a->segment[s], q = b->segment[s];
-        int same = p.group == q.group && p.rectangular == q.rectangular;
-        const char *card = p.rectangular ? "BEAM" : "SHAFT";
-        if (p.elements != q.elements)
-            differ(c, DECK_OTHER_ELEMENTS, "SHAFT");
-        q.elements = p.elements;
-        require(c, same && is_same(deck_rows(card), &p, &q), card);
-    }
-}
-
-static void compare_bars(struct comparing *c, const struct rotor *a, const struct rotor *b)
-{
-    require(c, a->nbars == b->nbars, "BARS");
-    for (int i = 0; i < a->nbars && a->nbars == b->nbars; i++) {
-        struct bars q = b->bars[i];
-        if (q.elements != a->bars[i].elements)
-            differ(c, DECK_OTHER_ELEMENTS, "BARS");
-        q.elements = a->bars[i].elements;
-        require(c, is_same(deck_rows("BARS"), &a->bars[i], &q), "BARS");
+        const struct segment *p = &a->segment[s], *q = &b->segment[s];
+        const char *card = p->rectangular ? "BEAM" : "SHAFT";
+        unsigned bits = differences(deck_rows(card), p, q);
+        differ(c, bits & DECK_OTHER_ELEMENTS, "SHAFT");
+        require(c, p->group == q->group && p->rectangular == q->rectangular && !(bits & DECK_OTHER_MODEL), card);
     }
 }
 
@@ -128,19 +116,16 @@ unsigned deck_compare_rotors(const struct rotor *a, const struct rotor *b, const
         const struct group *p = &a->group[g], *q = &b->group[g];
         require(&c, same_text(p->name, q->name) && p->layer_of == q->layer_of, p->layer_of > 0 ? "LAYER" : "SHAFT");
         require(&c, is_same_material(&p->material, &q->material), "ELASTIC");
-        require(&c, p->holes == q->holes && (!p->holes || is_same(deck_rows("PERFORATION"), p, q)), "PERFORATION");
+        require(&c, p->holes == q->holes && (!p->holes || !differences(deck_rows("PERFORATION"), p, q)), "PERFORATION");
         require(&c, deck_is_near(p->preload, q->preload), "PRELOAD");
     }
     if (!(c.bits & DECK_OTHER_MODEL))
         compare_segments(&c, a, b);
     for (int i = 0; i < a->nring && a->nring == b->nring; i++)
-        require(&c, a->ring[i].group == b->ring[i].group && is_same(deck_rows("LAYER"), &a->ring[i], &b->ring[i]), "LAYER");
+        require(&c, a->ring[i].group == b->ring[i].group && !differences(deck_rows("LAYER"), &a->ring[i], &b->ring[i]), "LAYER");
     for (const struct deck_card *kind = deck_card_table; kind->name; kind++)
-        require(&c,
-                !kind->size || kind->states == CARD_OF_MACHINE || kind->places == SENSOR_PLACES ||
-                    kind->list == offsetof(struct rotor, bars) || is_same_list(kind, a, b),
-                kind->name);
-    compare_bars(&c, a, b);
+        if (kind->size && kind->states != CARD_OF_MACHINE && kind->places != SENSOR_PLACES)
+            differ(&c, list_differences(kind, a, b), kind->name);
     require(&c, deck_is_near(a->sling, b->sling), "SLING");
     require(&c, a->neffect == b->neffect, "CAUSE");
     for (int i = 0; i < a->neffect; i++)
@@ -247,7 +232,7 @@ static void compare_options(struct comparing *c, const struct job_options *a, co
     if (a->fit.functional != b->fit.functional || a->fit.reduction != b->fit.reduction ||
         a->fit.derivative != b->fit.derivative || a->solid != b->solid)
         differ(c, DECK_OTHER_FIT, "FIT");
-    int same = a->frf.given == b->frf.given && a->frf.npair == b->frf.npair && is_same(deck_rows("FRF"), &a->frf, &b->frf);
+    int same = a->frf.given == b->frf.given && a->frf.npair == b->frf.npair && !differences(deck_rows("FRF"), &a->frf, &b->frf);
     require(c, same && !a->frf.file == !b->frf.file, "FRF");
 }
 

@@ -167,11 +167,6 @@ int deck_position(struct deck_reader *reader, const struct field *field, const c
 /* The value of an option as a field. */
 #define FIELD_OF(option) ((struct field){(option)->value, (option)->value_place, 0})
 
-int deck_option_position(struct deck_reader *reader, const struct card_option *option, const char *what, double *z)
-{
-    return deck_position(reader, &FIELD_OF(option), what, z);
-}
-
 const char *deck_option(struct deck_reader *reader, const struct card *card, const char *name, const char *expected)
 {
     const struct card_option *option = card_option(card, name);

@@ -356,15 +356,12 @@ int deck_check_disk(struct deck_reader *reader, const struct data_line *line, vo
         int under = z < to && z + segment->length > from;
         z += segment->length;
         rotor_diameters(rotor, s, &outer, &inner);
-        if (under && (segment->rectangular || disk->hub_outer <= outer)) {
-            if (segment->rectangular)
-                deck_error(reader, line->field[5].place, "the hub sits on a *BEAM, expected a round *SHAFT under it");
-            else
-                deck_error(reader, line->field[5].place,
-                           "hub outer diameter is %s m on a shaft of %.6g m, expected a larger one, or a shorter hub",
-                           line->field[5].text, outer);
-            return 1;
-        }
+        if (under && segment->rectangular)
+            return deck_error(reader, line->field[5].place, "the hub sits on a *BEAM, expected a round *SHAFT under it");
+        if (under && disk->hub_outer <= outer)
+            return deck_error(reader, line->field[5].place,
+                              "hub outer diameter is %s m on a shaft of %.6g m, expected a larger one, or a shorter hub",
+                              line->field[5].text, outer);
     }
     for (int d = 0; d < rotor->ndisk && disk->hub_length > 0; d++) {
         double other = rotor->disk[d].hub_length / 2, apart = fabs(rotor->disk[d].position - disk->position);

@@ -77,24 +77,6 @@ static void put_supports(struct deck_writer *w, const struct test *test)
     }
 }
 
-static void put_change(struct deck_writer *w, const struct test *test)
-{
-    switch (test->kind) {
-    case TEST_MASS:
-        deck_put_list_item(w, "DISK", &(struct disk){.name = "known_mass", .position = test->z, .mass = test->mass});
-        break;
-    case TEST_STIFF:
-    case TEST_FREE:
-        put_supports(w, test);
-        break;
-    case TEST_MOVED:
-        put_moved(w, test);
-        break;
-    default:
-        break;
-    }
-}
-
 static void put_sensors(struct deck_writer *w, const struct test *test)
 {
     struct job planned;
@@ -117,7 +99,12 @@ int deck_write_test(struct pool *pool, const struct job *job, const struct test 
         if (!job->rotor.spring[s].name && (test->kind != TEST_MOVED || s == test->spring))
             return ROTID_ERROR_ARGUMENT;
     deck_put(&w, "** proposed by rotid suggest: %s\n*STATE, NAME=%s\n", what ? what : "", test_id(test->kind));
-    put_change(&w, test);
+    if (test->kind == TEST_MASS)
+        deck_put_list_item(&w, "DISK", &(struct disk){.name = "known_mass", .position = test->z, .mass = test->mass});
+    else if (test->kind == TEST_MOVED)
+        put_moved(&w, test);
+    else if (test->kind >= TEST_STIFF)
+        put_supports(&w, test);
     deck_put_noise(&w, test->frequency_std, test->nsensor ? test->shape_std : NAN);
     deck_put(&w, "** the frequencies that are measured%s; expected are\n** *MODES\n",
              hertz != 1 ? ", in the unit of this deck" : " [Hz]");

@@ -19,8 +19,9 @@ enum row_kind {
 
 enum row_bit {
     ROW_MAY_LACK = 1,
-    ROW_NAN = 4,    /* what lacks is NaN: zero is a value */
-    ROW_ABOVE_0 = 2 /* written where the member is above zero: else it was not stated; of values the last ones */
+    ROW_NAN = 4,     /* what lacks is NaN: zero is a value */
+    ROW_ABOVE_0 = 2, /* written where the member is above zero: else it was not stated; of values the last ones */
+    ROW_MESH = 8     /* the mesh, which may follow from the data */
 };
 
 struct deck_row {
@@ -55,7 +56,7 @@ struct deck_row {
 #define WHOLE(S, M, W)   .kind = ROW_WHOLE, IN(S, M), .what = (W)
 #define ELEMENTS(S)                                                                                                              \
     {                                                                                                                            \
-        WHOLE(S, elements, "number of elements"), FROM_TO(1, DECK_MOST_ELEMENTS), OPTIONAL                                       \
+        WHOLE(S, elements, "number of elements"), FROM_TO(1, DECK_MOST_ELEMENTS), .bits = (ROW_MAY_LACK | ROW_MESH)              \
     }
 #define WORD(S, M, W) .kind = ROW_WORD, IN(S, M), .words = (W)
 #define OTHER(O, ...)                                                                                                            \

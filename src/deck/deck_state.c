@@ -179,11 +179,9 @@ static void merge_messages(struct deck_reader *reader, const struct states *stat
             int all = 1;
             for (int t = 0; t < states->nstate && all; t++)
                 all &= says(&of[t], m);
-            if (!all)
-                message_add(reader->messages, m->severity, m->file, m->line, m->column, "%s (state %s)", m->text,
+            if (!all || s == 0)
+                message_add(reader->messages, m->severity, m->file, m->line, m->column, all ? "%s" : "%s (state %s)", m->text,
                             states->state[s].name);
-            else if (s == 0)
-                message_add(reader->messages, m->severity, m->file, m->line, m->column, "%s", m->text);
         }
 }
 

@@ -311,15 +311,16 @@ void data_note_readings(struct engine *engine)
     const struct roving_accelerometer *moving = &engine->moving;
     double most = most_mass(&engine->job->rotor);
     if (moving->dropped)
-        message_add(
-            engine->notes, SEVERITY_WARNING, NULL, 0, 0,
+        message_warn(
+            engine->notes,
             "%d of %d frequencies at single sensors contradict the others and do not count for the mass of the accelerometer",
             moving->dropped, moving->readings + moving->dropped);
     if (moving->found && moving->mass > most)
-        message_add(engine->notes, SEVERITY_WARNING, NULL, 0, 0,
-                    "the frequencies at single sensors fall as under a mass of %.3g kg, which no accelerometer here has (at most "
-                    "%.3g kg): they are not explained",
-                    moving->mass, most);
+        message_warn(
+            engine->notes,
+            "the frequencies at single sensors fall as under a mass of %.3g kg, which no accelerometer here has (at most "
+            "%.3g kg): they are not explained",
+            moving->mass, most);
 }
 
 int data_weigh_accelerometer(struct engine *engine, int *changed)

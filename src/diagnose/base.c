@@ -215,10 +215,10 @@ static void note_bounds(struct engine *engine)
     for (int p = 0; p < engine->nown; p++)
         if (engine->fit->at_bound[p]) {
             const rotid_parameter *bounds = &engine->out->judged.bounds[p];
-            message_add(engine->notes, SEVERITY_WARNING, NULL, 0, 0,
-                        "without a cause %s ends at its %s bound %.4g %s: the bound itself may be what is wrong; widen it where "
-                        "physics allows",
-                        bounds->name, base_bound_side(engine, p), engine->fit->x[p], bounds->unit);
+            message_warn(engine->notes,
+                         "without a cause %s ends at its %s bound %.4g %s: the bound itself may be what is wrong; widen it where "
+                         "physics allows",
+                         bounds->name, base_bound_side(engine, p), engine->fit->x[p], bounds->unit);
         }
 }
 

@@ -193,22 +193,21 @@ static void judge_amount(struct engine *engine, int fitted)
     *confident = 1;
     if (fitted < LEAST_MODES) {
         *confident = 0;
-        message_add(engine->notes, SEVERITY_WARNING, NULL, 0, 0,
-                    "%d fitted mode%s are too few to name a cause, expected at least %d", fitted, fitted == 1 ? "" : "s",
-                    LEAST_MODES);
+        message_warn(engine->notes, "%d fitted mode%s are too few to name a cause, expected at least %d", fitted,
+                     fitted == 1 ? "" : "s", LEAST_MODES);
     }
     if (engine->out->result.noise.frequency_assumed) {
         *confident = 0;
-        message_add(engine->notes, SEVERITY_WARNING, NULL, 0, 0,
-                    "the deck states no noise of the frequencies (*NOISE, FREQUENCY=): %.2g %% are assumed, so only relative "
-                    "statements can be made",
-                    100 * ASSUMED_FREQUENCY_NOISE);
+        message_warn(engine->notes,
+                     "the deck states no noise of the frequencies (*NOISE, FREQUENCY=): %.2g %% are assumed, so only relative "
+                     "statements can be made",
+                     100 * ASSUMED_FREQUENCY_NOISE);
     }
     if (share < LEAST_SPAN) {
         *confident = 0;
-        message_add(engine->notes, SEVERITY_WARNING, NULL, 0, 0,
-                    "the sensors cover %.0f %% of the rotor, expected at least %.0f %%: what lies elsewhere cannot be placed",
-                    100 * share, 100 * LEAST_SPAN);
+        message_warn(engine->notes,
+                     "the sensors cover %.0f %% of the rotor, expected at least %.0f %%: what lies elsewhere cannot be placed",
+                     100 * share, 100 * LEAST_SPAN);
     }
 }
 

@@ -108,9 +108,8 @@ static int suffices(const struct state *state, struct message_list *notes)
 /* A mode whose number the shape of another one claims is left out, as a diagnosis does: it tells nothing of what changed. */
 static void leave_out_clash(struct job *job, int k, const char *name, struct message_list *notes)
 {
-    message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
-                "measured mode %d of state %s at %.6g Hz has the shape of no mode of the model and is left out",
-                job->measurement.number[k], name, job->measurement.frequency_hz[k]);
+    message_warn(notes, "measured mode %d of state %s at %.6g Hz has the shape of no mode of the model and is left out",
+                 job->measurement.number[k], name, job->measurement.frequency_hz[k]);
     data_remove_mode(job, k);
 }
 
@@ -354,9 +353,8 @@ static int correct(struct pool *pool, const struct job *before, const struct ide
             hypot(hypot(job->measurement.frequency_std[k], before->measurement.frequency_std[j]), sqrt(other) * log(ratio));
     }
     if (left_out)
-        message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
-                    "%d mode%s of state %s that the other state has not tell%s nothing of what changed and %s left out", left_out,
-                    left_out == 1 ? "" : "s", name, left_out == 1 ? "s" : "", left_out == 1 ? "is" : "are");
+        message_warn(notes, "%d mode%s of state %s that the other state has not tell%s nothing of what changed and %s left out",
+                     left_out, left_out == 1 ? "" : "s", name, left_out == 1 ? "s" : "", left_out == 1 ? "is" : "are");
     return ROTID_OK;
 }
 

@@ -455,25 +455,24 @@ struct reasons sentences_of_transfer(struct pool *pool, const struct transfer_re
     for (int p = 0; p < of->nparameters; p++)
         at = pool_text(pool, "%s%s%s = %s", at, p ? ", " : ": ", of->parameters[p].name,
                        human_value(pool, of->parameters[p].value, of->parameters[p].unit));
-    reasons_add(&said, TONE_NONE, "%d synthesised %s, %s over force [%s], %d lines from %s; %s%s.", of->nfunctions,
+    reasons_say(&said, "%d synthesised %s, %s over force [%s], %d lines from %s; %s%s.", of->nfunctions,
                 human_plural(of->nfunctions, "function", "functions"), of->quantity, of->unit, of->lines,
                 human_range(pool, of->low_hz, of->high_hz, "Hz"), of->measured_file ? "measured ones from " : "none was measured",
                 or_nothing(of->measured_file));
-    reasons_add(&said, TONE_NONE, "The model is %s%s.", *at ? "the identified one" : "as the deck states it", at);
-    reasons_add(
-        &said, TONE_NONE,
+    reasons_say(&said, "The model is %s%s.", *at ? "the identified one" : "as the deck states it", at);
+    reasons_say(
+        &said,
         "Summed are %d %s on the supports or free and %d elastic ones, all up to %s, with the damping below; the rest by its "
         "flexibility.",
         rigid, human_plural(rigid, "mode", "modes"), of->nmodes - rigid, human_value(pool, of->modes_up_to_hz, "Hz"));
     if (of->window_decay > 0)
-        reasons_add(&said, TONE_NONE, "The measurement has an exponential window of %s 1/s, and so has the synthesis.",
+        reasons_say(&said, "The measurement has an exponential window of %s 1/s, and so has the synthesis.",
                     human_trimmed(pool, of->window_decay, 5));
     if (of->agreement && isfinite(of->agreement->frac))
-        reasons_add(&said, TONE_NONE,
-                    "FRAC over all functions is %s, and %s with the measured frequencies put in for the model's.",
+        reasons_say(&said, "FRAC over all functions is %s, and %s with the measured frequencies put in for the model's.",
                     human_fixed(pool, of->agreement->frac, 3), human_fixed(pool, of->agreement->frac_at_measured_frequencies, 3));
     if (!of->complete)
-        reasons_add(&said, TONE_NONE, "It was interrupted: %d %s finished.", of->nfunctions,
+        reasons_say(&said, "It was interrupted: %d %s finished.", of->nfunctions,
                     human_plural(of->nfunctions, "function was", "functions were"));
     return said;
 }

@@ -233,14 +233,14 @@ struct shown shown_of_modes(struct pool *pool, const rotid_spectrum *s)
     for (int i = 0; i < s->nrigid_hz; i++)
         hz = pool_text(pool, "%s%s%s", hz, i ? ", " : "", human_value(pool, s->rigid_hz[i], "Hz"));
     if (is_free(s->nrigid_hz, s->rigid_hz))
-        reasons_add(&shown.said, TONE_NONE, "rigid-body modes: %d (the rotor is free)", s->nrigid_hz);
+        reasons_say(&shown.said, "rigid-body modes: %d (the rotor is free)", s->nrigid_hz);
     else if (s->nrigid_hz)
-        reasons_add(&shown.said, TONE_NONE, "rotor on its supports: %s", hz);
+        reasons_say(&shown.said, "rotor on its supports: %s", hz);
     if (s->beside) {
         shown.table[1] = table_of_beside_modes(pool, s->beside);
         shown.table[2] = table_of_beside_moduli(pool, s->beside);
         if (s->beside->sentence)
-            reasons_add(&shown.said, TONE_NONE, "The beam beside the solid: %s.", s->beside->sentence);
+            reasons_say(&shown.said, "The beam beside the solid: %s.", s->beside->sentence);
     }
     return shown;
 }

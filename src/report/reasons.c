@@ -146,8 +146,8 @@ static void on_functional(struct reasons *reasons, const rotid_identification *f
             "REDUCTION=NONE avoids it.",
             fit->reduction, fit->modes[worst].mode, human_signed(reasons->pool, fit->reduction_error_percent[worst], 2));
     if (strcmp(fit->functional, "LIKELIHOOD") != 0)
-        reasons_add(
-            reasons, TONE_NONE,
+        reasons_say(
+            reasons,
             "The hybrid quotient equals the frequency of the %s for any measured shape: this functional fits frequencies alone.",
             condensed ? "condensed model" : "model");
 }
@@ -224,24 +224,23 @@ static void on_chance(struct reasons *reasons, const rotid_diagnosis *d)
     const rotid_verdict *v = &d->verdict;
     const rotid_round *round = d->nrounds ? d->rounds : NULL;
     if (round && isfinite(v->p_value))
-        reasons_add(
-            reasons, TONE_NONE,
+        reasons_say(
+            reasons,
             "A correct model has a misfit this large or larger %s tests: the misfit \xcf\x87\xc2\xb2 is %s, where a correct "
             "model has about %d.",
             words_chance(pool, v->p_value), human_digits(pool, round->chi2, 3), round->dof);
     else if (v->sentence)
-        reasons_add(reasons, TONE_NONE, "No p-value can be stated.");
+        reasons_say(reasons, "No p-value can be stated.");
     if (round && v->kind == ROTID_ADEQUATE && isfinite(round->largest))
-        reasons_add(reasons, TONE_NONE, "No cause of the catalogue is expected to lower it by more than %s.",
+        reasons_say(reasons, "No cause of the catalogue is expected to lower it by more than %s.",
                     human_digits(pool, round->largest, 2));
     if (v->kind > ROTID_ADEQUATE)
-        reasons_add(reasons, TONE_NONE,
-                    !v->adequate_after           ? "The misfit that is left still exceeds the noise."
-                    : v->kind == ROTID_AMBIGUOUS ? "With the best of these causes the model is adequate."
-                                                 : "The extended model is adequate.");
+        reasons_say(reasons, !v->adequate_after           ? "The misfit that is left still exceeds the noise."
+                             : v->kind == ROTID_AMBIGUOUS ? "With the best of these causes the model is adequate."
+                                                          : "The extended model is adequate.");
     if (d->noise.frequency_assumed || d->noise.shape_assumed)
-        reasons_add(
-            reasons, TONE_NONE,
+        reasons_say(
+            reasons,
             "The deck does not state all of the noise. The assumed values stand below; another noise may change the verdict, so "
             "no cause is named: state *NOISE.");
 }
@@ -255,11 +254,11 @@ static void on_shares(struct reasons *reasons, const rotid_diagnosis *d)
     for (int i = 0; i < d->ncandidates; i++)
         tried += d->candidates[i].refitted;
     for (int i = 0; i < v->nmarginals && v->kind == ROTID_NAMED && i < v->ncauses; i++)
-        reasons_add(reasons, TONE_NONE, "%s: probability %s %%.", cause_name(pool, v->marginals[i].id, v->marginals[i].target),
+        reasons_say(reasons, "%s: probability %s %%.", cause_name(pool, v->marginals[i].id, v->marginals[i].target),
                     human_digits(pool, 100 * v->marginals[i].probability, 3));
     const char *count = human_count(pool, tried);
     if (tried && v->kind != ROTID_ADEQUATE)
-        reasons_add(reasons, TONE_NONE, "%c%s single %s fitted, then sets of them.", toupper((unsigned char)*count), count + 1,
+        reasons_say(reasons, "%c%s single %s fitted, then sets of them.", toupper((unsigned char)*count), count + 1,
                     human_plural(tried, "cause was", "causes were"));
 }
 
@@ -274,15 +273,15 @@ static void on_parameters(struct reasons *reasons, const rotid_diagnosis *d)
                               human_signed(pool, percent, fabs(percent) < 1 ? 2 : 1));
     }
     if (*moved && d->verdict.kind != -1)
-        reasons_add(reasons, TONE_NONE, "The missing cause had biased the parameters; the extended model moves %s.", moved);
+        reasons_say(reasons, "The missing cause had biased the parameters; the extended model moves %s.", moved);
     const rotid_identification *fit = d->extended ? d->extended : d->base;
     for (int p = 0; fit && p < fit->nparameters; p++)
         if (!fit->parameters[p].identifiable)
-            reasons_add(reasons, TONE_NONE, "%s %s.", fit->parameters[p].name,
+            reasons_say(reasons, "%s %s.", fit->parameters[p].name,
                         fit->parameters[p].at_bound ? "ends at its bound: its value without the bound is not known"
                                                     : "is not determined by these data");
     if (fit && fit->intervals_widened_by > 1)
-        reasons_add(reasons, TONE_NONE, "The intervals of the %s are widened by %s: the misfit exceeds the noise.",
+        reasons_say(reasons, "The intervals of the %s are widened by %s: the misfit exceeds the noise.",
                     d->extended ? "extended model" : "model", human_digits(pool, fit->intervals_widened_by, 3));
 }
 
@@ -300,8 +299,8 @@ static void on_today(struct reasons *reasons, const rotid_diagnosis *d)
                              human_value(pool, is->value, is->unit), human_signed(pool, percent, 1));
     }
     if (*text)
-        reasons_add(
-            reasons, TONE_NONE,
+        reasons_say(
+            reasons,
             "The fit as the deck states it (%s, reduction %s, %s\xc2\xa0%% rms error of its frequencies) gives %s against the %s "
             "here, which is the full model judged by the likelihood.",
             today->functional, today->reduction, human_digits(pool, fit_rms_percent(today, 0), 2), text,
@@ -338,8 +337,7 @@ struct reasons findings_of_diagnosis(struct pool *pool, const rotid_diagnosis *d
             text = pool_text(pool, "%s \xc2\xb1 %s", text, human_digits(pool, f->std * unit.factor, 2));
         if (isfinite(f->chi2_drop))
             text = pool_text(pool, "%s; \xcf\x87\xc2\xb2 less by %s", text, human_digits(pool, f->chi2_drop, 4));
-        reasons_add(&findings, TONE_NONE, "%s.%s%s%s", text, kind ? " At the test: " : "", kind ? kind->check : "",
-                    kind ? "." : "");
+        reasons_say(&findings, "%s.%s%s%s", text, kind ? " At the test: " : "", kind ? kind->check : "", kind ? "." : "");
     }
     for (int i = 0; i < d->nnumerical_findings; i++) {
         const rotid_numerical_finding *f = &d->numerical_findings[i];
@@ -350,7 +348,7 @@ struct reasons findings_of_diagnosis(struct pool *pool, const rotid_diagnosis *d
                 text = pool_text(pool, "%s%smode %d %s", text, before, f->modes[k], human_signed(pool, f->error_percent[k], 3));
                 before = ", ";
             }
-        reasons_add(&findings, TONE_NONE, "%s.", text);
+        reasons_say(&findings, "%s.", text);
     }
     return findings;
 }

@@ -367,6 +367,7 @@ struct reasons {
 };
 
 void reasons_add(struct reasons *reasons, enum tone tone, const char *format, ...) __attribute__((format(printf, 3, 4)));
+#define reasons_say(reasons, ...) reasons_add((reasons), TONE_NONE, __VA_ARGS__)
 
 /* How far to trust a fit; why a verdict is what it is; what is wrong with the measurement and the numbers. */
 struct reasons reasons_of_fit(struct pool *pool, const struct result_head *head, const rotid_identification *fit);

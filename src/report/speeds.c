@@ -227,15 +227,14 @@ struct shown shown_of_speeds(struct pool *pool, const rotid_speeds *s, int all)
                                     all ? table_of_sensitivities(pool, s) : NULL}};
     const rotid_critical_speed *least = nearest(s);
     if (least)
-        reasons_add(&shown.said, TONE_NONE, "%s", judgement(pool, least, s));
+        reasons_say(&shown.said, "%s", judgement(pool, least, s));
     for (const rotid_critical_speed *c = s->critical_speeds; c < s->critical_speeds + s->ncritical_speeds; c++)
         if (isfinite(c->margin.value) && c != least)
-            reasons_add(&shown.said, TONE_NONE, "%s", judgement(pool, c, s));
+            reasons_say(&shown.said, "%s", judgement(pool, c, s));
     if (s->ncampbell)
-        reasons_add(&shown.said, TONE_NONE, "%s", stability(pool, s));
+        reasons_say(&shown.said, "%s", stability(pool, s));
     if (isfinite(s->stability.probability_stable))
-        reasons_add(&shown.said, TONE_NONE, "Stable at %.0f rpm with probability %.3f", s->high_rpm,
-                    s->stability.probability_stable);
+        reasons_say(&shown.said, "Stable at %.0f rpm with probability %.3f", s->high_rpm, s->stability.probability_stable);
     return shown;
 }
 

@@ -172,10 +172,10 @@ struct shown shown_of_suggestion(struct pool *pool, const rotid_suggestion *s, i
                                     table_of_detectable(pool, s->ndetectable, s->detectable),
                                     all ? table_of_margins(pool, s) : NULL}};
     if (s->verdict)
-        reasons_add(&shown.said, TONE_NONE, "diagnosis: %s", s->verdict);
+        reasons_say(&shown.said, "diagnosis: %s", s->verdict);
     if (s->state)
-        reasons_add(&shown.said, TONE_NONE, "state: plans and tests are made like %s", s->state);
-    reasons_add(&shown.said, TONE_NONE, "noise: %s", noise_in_words(pool, &s->noise));
+        reasons_say(&shown.said, "state: plans and tests are made like %s", s->state);
+    reasons_say(&shown.said, "noise: %s", noise_in_words(pool, &s->noise));
     return shown;
 }
 

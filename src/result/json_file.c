@@ -135,7 +135,7 @@ static int read_lines(const char *file, struct message_list *messages, const cha
             say_where(file, messages, text, next, is_cut_off(at, next, end));
             return ROTID_ERROR_SYNTAX;
         }
-        message_add(messages, SEVERITY_WARNING, NULL, 0, 0, "%s: the last line is not complete and left out", file);
+        message_warn(messages, "%s: the last line is not complete and left out", file);
         break;
     }
     return ROTID_OK;

@@ -206,13 +206,11 @@ static void say_why_not(const struct job *fitted, const rotid_fit_result *fit, s
     while (at >= 0 && !fit->at_bound[at])
         at++;
     if (at >= 0)
-        message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
-                    "no moduli make a beam follow this solid: fitted to %d frequencies, %s ends at %.3g times its value",
-                    fitted->measurement.nmode, fitted->unknowns.bounds[at].name, fit->x[at] / fitted->unknowns.bounds[at].start);
+        message_warn(notes, "no moduli make a beam follow this solid: fitted to %d frequencies, %s ends at %.3g times its value",
+                     fitted->measurement.nmode, fitted->unknowns.bounds[at].name, fit->x[at] / fitted->unknowns.bounds[at].start);
     else
-        message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
-                    "the moduli of an equivalent beam are not determined: %d frequencies of the solid for %d moduli",
-                    fitted->measurement.nmode, fitted->unknowns.nparameter);
+        message_warn(notes, "the moduli of an equivalent beam are not determined: %d frequencies of the solid for %d moduli",
+                     fitted->measurement.nmode, fitted->unknowns.nparameter);
 }
 
 /* Nothing where there are no moduli, or fewer modes than moduli. */

@@ -59,12 +59,11 @@ static void say_what_is_odd(const struct job *job, const struct spectrum *spectr
             odd = "measured mode %d at %.6g Hz has no partner in the model by its shape: mode %d, which has its number, "
                   "correlates by %.2f only";
         if (odd)
-            message_add(notes, SEVERITY_WARNING, NULL, 0, 0, odd, job->measurement.number[k], job->measurement.frequency_hz[k],
-                        c->number[k], c->nco[k]);
+            message_warn(notes, odd, job->measurement.number[k], job->measurement.frequency_hz[k], c->number[k], c->nco[k]);
     }
     if (shapes > 1 && alike < ALIKE)
-        message_add(
-            notes, SEVERITY_WARNING, NULL, 0, 0,
+        message_warn(
+            notes,
             "no measured shape resembles a mode of the model (MAC %.2f at most): shapes of another test, positions of the "
             "sensors from the other end or in another unit, or channels exchanged?",
             alike);
@@ -73,8 +72,7 @@ static void say_what_is_odd(const struct job *job, const struct spectrum *spectr
         for (int k = 0; k < c->nmode; k++)
             found |= c->number[k] == j;
         if (!found)
-            message_add(notes, SEVERITY_WARNING, NULL, 0, 0, "mode %d of the model at %.6g Hz was not measured", j,
-                        spectrum->full_hz[j - 1]);
+            message_warn(notes, "mode %d of the model at %.6g Hz was not measured", j, spectrum->full_hz[j - 1]);
     }
 }
 
@@ -130,8 +128,8 @@ void comparison_warn_of_mesh(const struct job *job, const struct spectrum *spect
     int worst = -1, solid = job->options.solid;
     if (spectrum->apart) {
         struct place place = job_part_place(job, job->rotor.ngroup + job->rotor.ntierod + job->rotor.nbars);
-        message_add(
-            notes, SEVERITY_WARNING, NULL, 0, 0, /* notes with a place were printed when the deck was read */
+        message_warn(
+            notes, /* notes with a place were printed when the deck was read */
             "%s:%d:%d: the mesh of the solid is not fine enough for mode %d, %.6g Hz: two meshes differ by more than 2 %% or "
             "have other shapes or another order there; expected fewer modes, thicker parts, or *FIT, MODEL=BEAM",
             place.file, place.line, place.column, spectrum->apart, spectrum->full_hz[spectrum->apart - 1]);
@@ -150,16 +148,17 @@ void comparison_warn_of_mesh(const struct job *job, const struct spectrum *spect
         return;
     double error = spectrum->mesh_error_percent[comparison->number[worst] - 1];
     if (solid)
-        message_add(
-            notes, SEVERITY_WARNING, NULL, 0, 0,
+        message_warn(
+            notes,
             "the mesh of the solid leaves measured mode %d in doubt by %.4f %%, more than a third of its noise of %.4f %%: "
             "the intervals do not allow for it",
             job->measurement.number[worst], fabs(error), 100 * job->measurement.frequency_std[worst]);
     else
-        message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
-                    "the mesh moves measured mode %d by %+.4f %%, %.1f times its noise: give more elements, the intervals do not "
-                    "allow for it",
-                    job->measurement.number[worst], error, largest);
+        message_warn(
+            notes,
+            "the mesh moves measured mode %d by %+.4f %%, %.1f times its noise: give more elements, the intervals do not "
+            "allow for it",
+            job->measurement.number[worst], error, largest);
 }
 
 void frf_sums_add(struct frf_sums *sums, int n, const double complex *measured, const double complex *synthesised)

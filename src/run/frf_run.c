@@ -85,8 +85,8 @@ static int all_rows(struct pool *pool, const struct job *job, const struct frf_s
             set->nfrf);
     out->nleft_out = set->nfrf - out->nrow;
     if (out->nleft_out)
-        message_add(
-            notes, SEVERITY_WARNING, NULL, 0, 0,
+        message_warn(
+            notes,
             "%d measured transfer functions are left out: not lateral (AXIS=%s is that of the rotor), or response and force "
             "along different axes",
             out->nleft_out,
@@ -722,8 +722,8 @@ int frf_run(struct pool *pool, const struct job *job, const struct identificatio
     else if (!status)
         status = compare_rows(pool, measured, environment, out);
     if (!status && frf_sums_frac(&out->moved) < frf_sums_frac(&out->sums) - STRANGE)
-        message_add(
-            notes, SEVERITY_WARNING, NULL, 0, 0,
+        message_warn(
+            notes,
             "the measured functions fit the frequencies of the model (FRAC %.3f) better than those of the measured modes (%.3f): "
             "do they come from the same test?",
             frf_sums_frac(&out->sums), frf_sums_frac(&out->moved));

@@ -575,11 +575,10 @@ static int with_models(struct pool *pool, const struct states *states, int basel
         return status;
     for (int s = 0, paired_anew = 0; s < count; s++)
         if (pairs_moved(&run[s]) && !paired_anew++)
-            message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
-                        "the pairing of the modes still changes with the fitted model: the result is not reliable");
+            message_warn(notes, "the pairing of the modes still changes with the fitted model: the result is not reliable");
     if (apart > HELD && !moved && !is_cancelled(*fit, environment))
-        message_add(
-            notes, SEVERITY_WARNING, NULL, 0, 0,
+        message_warn(
+            notes,
             "what two meshes of the solid lead to still changes with the fitted model, by %.2g %% of a frequency: the result is "
             "not reliable",
             100 * apart);
@@ -675,8 +674,8 @@ void identify_warn_of_reduction(const struct job *job, const struct identificati
             worst = error;
     }
     if (job->options.fit.reduction != ROTID_REDUCTION_NONE && fabs(worst) > 0.5)
-        message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
-                    "identified with REDUCTION=%s, whose frequencies are up to %+.1f %% off those of the full model that is %s "
-                    "here (rotid identify, column reduction)",
-                    reduction_words[job->options.fit.reduction], worst, what);
+        message_warn(notes,
+                     "identified with REDUCTION=%s, whose frequencies are up to %+.1f %% off those of the full model that is %s "
+                     "here (rotid identify, column reduction)",
+                     reduction_words[job->options.fit.reduction], worst, what);
 }

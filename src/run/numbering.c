@@ -296,8 +296,8 @@ int numbering_warn(struct pool *pool, const struct states *states, const struct 
     const char *text = numbering_text(pool, states, &best);
     if (!text)
         return ROTID_ERROR_MEMORY;
-    message_add(notes, SEVERITY_WARNING, NULL, 0, 0, "%s? With such numbers the errors of the fit fall to %.2g of what they are",
-                text, sqrt(best.chi2 / (2 * fit->objective)));
+    message_warn(notes, "%s? With such numbers the errors of the fit fall to %.2g of what they are", text,
+                 sqrt(best.chi2 / (2 * fit->objective)));
     return ROTID_OK;
 }
 
@@ -354,10 +354,10 @@ int exchange_warn(struct pool *pool, const struct states *states, const struct i
             rotid_fit_result *other;
             status = identify_fit_states(pool, &exchanged, number, holdout, &states->state->job.options.fit, environment, &other);
             if (!status && fits_as_well(fit, other, p, q))
-                message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
-                            "%s and %s fit as well if they are exchanged: frequencies alone do not tell the ends of a symmetric "
-                            "rotor apart; shapes do, or a known mass near one end (*STATE)",
-                            a->name, b->name);
+                message_warn(notes,
+                             "%s and %s fit as well if they are exchanged: frequencies alone do not tell the ends of a symmetric "
+                             "rotor apart; shapes do, or a known mass near one end (*STATE)",
+                             a->name, b->name);
             rotid_fit_free(other);
             if (status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED) /* the fit is a result all the same */
                 return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;

@@ -712,8 +712,7 @@ int bands_make(struct pool *pool, struct search *search, const rotid_fit_result 
         out->stability.probability_stable = (double)stable / options->draws;
     }
     if (lost)
-        message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
-                    "%d of %d critical speeds of the draws were not found: the intervals are of the others", lost,
-                    options->draws * ncritical);
+        message_warn(notes, "%d of %d critical speeds of the draws were not found: the intervals are of the others", lost,
+                     options->draws * ncritical);
     return ROTID_OK;
 }

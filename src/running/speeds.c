@@ -316,9 +316,8 @@ int speeds_run(struct pool *pool, const struct machine *machine, const struct jo
     if (!status)
         status = to > 0 ? search_within(pool, to, notes, &r.search) : search_until(pool, 0, 3, 0, notes, &r.search);
     if (!status && isfinite(r.search.missed))
-        message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
-                    "a mode crosses the speed near %.6g rpm at a place that was not found: a critical speed is missing",
-                    r.search.missed / RPM);
+        message_warn(notes, "a mode crosses the speed near %.6g rpm at a place that was not found: a critical speed is missing",
+                     r.search.missed / RPM);
     if (!status)
         status = fill(&r);
     if (!status && isnan(out->stability.onset_rpm) && r.search.followed.beyond > 0)

@@ -94,8 +94,8 @@ int torsion_run(struct pool *pool, const struct machine *machine, const struct j
         return status;
     for (int i = 0; i < machine->ndisk && !status; i++)
         if (machine->disk[i].mass > 0 && !(machine->disk[i].polar > 0))
-            message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
-                        "the disk of the machine at %.6g m has no polar inertia, which torsion needs", machine->disk[i].position);
+            message_warn(notes, "the disk of the machine at %.6g m has no polar inertia, which torsion needs",
+                         machine->disk[i].position);
     out->torsion = status ? NULL : POOL_ARRAY(pool, rotid_torsional_frequency, MODES);
     for (int k = 0; k < MODES && out->torsion && isfinite(hz[k]); k++)
         out->torsion[out->ntorsion++] =

@@ -59,18 +59,9 @@ static void read_study(struct plan_reader *reader, const struct card *card)
     of_command(reader, card_option(card, "DRAWS"), PLAN_SPEEDS);
 }
 
-/* As seen from where the program runs: a relative one is relative to the file that names it. */
-static const char *beside(struct plan_reader *reader, struct place place, const char *path)
-{
-    const char *slash = strrchr(place.file, '/');
-    if (*path == '/' || !slash)
-        return path;
-    return pool_format(reader->fields.pool, "%.*s/%s", (int)(slash - place.file), place.file, path);
-}
-
 static int read_deck(struct plan_reader *reader, const struct data_line *line, struct plan_item *item)
 {
-    item->path = beside(reader, line->place, line->text);
+    item->path = deck_path_from(reader->fields.pool, line->text, line->place.file, NULL);
     return 0;
 }
 
@@ -95,7 +86,7 @@ static void read_variant(struct plan_reader *reader, const struct card *card)
             continue;
         }
         if (same_text(override->option, "FILE")) /* relative to the plan, not to where the user stands as with --set */
-            override->value = beside(reader, line->place, override->value);
+            override->value = deck_path_from(pool, override->value, line->place.file, NULL);
         /* what is wrong with it is found when the deck is read, and reported by this name: it is put in its place there */
         override->text = pool_format(pool, "variant %s, %s", variant.name, line->text);
         variant.override_place[variant.noverride++] = line->place;

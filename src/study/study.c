@@ -377,8 +377,7 @@ static int check_decks(struct pool *pool, struct study *study, struct message_li
                     ndeck > 1 ? "none of the decks can be used: nothing was computed"
                               : "the deck cannot be used: nothing was computed");
     else if (!messages->errors && bad)
-        message_add(messages, SEVERITY_WARNING, NULL, 0, 0, "%d of %d decks cannot be used: their runs are recorded as failed",
-                    bad, ndeck);
+        message_warn(messages, "%d of %d decks cannot be used: their runs are recorded as failed", bad, ndeck);
     return messages->errors ? ROTID_ERROR_SYNTAX : ROTID_OK;
 }
 

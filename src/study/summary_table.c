@@ -253,23 +253,22 @@ struct shown shown_of_study(struct pool *pool, const struct study_result *s)
         human_plural(s->ncells, "cell", "cells"), s->failed, sum.not_converged,
         s->done > 0 && isfinite(s->seconds) ? pool_text(pool, "; %s a run", human_seconds(pool, s->seconds / s->done)) : "");
     if (sum.starts > 0)
-        reasons_add(&shown.said, TONE_NONE,
-                    "Of %.0f iterations from different starts %.0f end at the least functional of their cell.", sum.starts,
-                    sum.reached);
+        reasons_say(&shown.said, "Of %.0f iterations from different starts %.0f end at the least functional of their cell.",
+                    sum.starts, sum.reached);
     if (sum.intervals > 0)
-        reasons_add(&shown.said, TONE_NONE, "Of %.0f 95\xc2\xa0%% intervals %s\xc2\xa0%% hold the truth.", sum.intervals,
+        reasons_say(&shown.said, "Of %.0f 95\xc2\xa0%% intervals %s\xc2\xa0%% hold the truth.", sum.intervals,
                     human_fixed(pool, 100 * sum.held / sum.intervals, 1));
     if (sum.scored > 0)
-        reasons_add(&shown.said, TONE_NONE,
+        reasons_say(&shown.said,
                     "Of %.0f diagnoses %.0f are right, in the set, or correctly without a cause; %.0f name something else.",
                     sum.scored, sum.good, sum.false_alarm);
     for (int i = 0; i < s->nerrors && i < MOST_ERROR; i++)
-        reasons_add(&shown.said, TONE_NONE, "%d failed, the first is run %d: %s", s->errors[i].runs, s->errors[i].first_run,
+        reasons_say(&shown.said, "%d failed, the first is run %d: %s", s->errors[i].runs, s->errors[i].first_run,
                     s->errors[i].error);
     if (s->nerrors > MOST_ERROR)
-        reasons_add(&shown.said, TONE_NONE, "%d other reasons", s->nerrors - MOST_ERROR);
+        reasons_say(&shown.said, "%d other reasons", s->nerrors - MOST_ERROR);
     if (s->done < s->runs)
-        reasons_add(&shown.said, TONE_NONE, "%d runs are missing", s->missing);
+        reasons_say(&shown.said, "%d runs are missing", s->missing);
     return shown;
 }
 

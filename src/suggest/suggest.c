@@ -580,13 +580,13 @@ static void note_rivals(struct message_list *notes, const struct rivals *rivals)
 {
     const rotid_fit_result *best = rivals->n ? rivals->rival[0].fit : NULL;
     if (rivals->left_out)
-        message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
-                    "%d of the alternatives of the diagnosis %s left out: not among the first %d, no model of this kind, or not "
-                    "fitted again; the chances of the tests hold among the others",
-                    rivals->left_out, rivals->left_out == 1 ? "is" : "are", MOST_RIVALS);
+        message_warn(notes,
+                     "%d of the alternatives of the diagnosis %s left out: not among the first %d, no model of this kind, or not "
+                     "fitted again; the chances of the tests hold among the others",
+                     rivals->left_out, rivals->left_out == 1 ? "is" : "are", MOST_RIVALS);
     if (best && best->dof > 0 && chi_square_tail(best->chi2, best->dof) < JUDGED)
-        message_add(
-            notes, SEVERITY_WARNING, NULL, 0, 0,
+        message_warn(
+            notes,
             "the best of the rivals leaves chi2 %.3g for %d degrees of freedom: perhaps none of them is the true one, and "
             "the chances hold only if one is",
             best->chi2, best->dof);
