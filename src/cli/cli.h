@@ -106,12 +106,10 @@ void command_print_messages(struct command *command);
 /* The messages of a call of the library go to those of the command; with the state that they are of, NULL where all are one. */
 void command_take_messages(struct command *command, const char *state, int count, const rotid_message *message);
 
-/* What to work on one after the other: the states of the deck, or the deck itself where it is one. How many, the deck i of them,
- * and its name, NULL of a deck that is one. */
-int command_state_count(const struct command *command);
-const rotid_deck *command_state(const struct command *command, int i, const char **name);
-/* The states of a result with their names, for what the command finds of each; none of a deck that is one. 0, or an exit code. */
-int command_begin_states(struct command *command, struct result *result);
+/* Works on one deck after the other: the states, or the deck itself where it is one, [*count] in result->states, and what the
+ * first one has in the result as well. 0, or the exit code of one that ended it. */
+typedef int command_of_state(struct command *command, const rotid_deck *deck, struct result_state *state);
+int command_each_state(struct command *command, struct result *result, command_of_state *work, int *count);
 
 /* Head of the result, from the arguments alone; command_read_deck completes it with the deck. */
 void command_begin_head(struct command *command);

@@ -165,7 +165,7 @@ int command_refuse_csv(const struct command *command, const char *const *name)
 {
     struct pool pool;
     int code = EXIT_DONE;
-    if (command->csv && command->read && command_state_count(command) > 1)
+    if (command->csv && command->read && command->read->nstate > 1)
         return terminal_end(EXIT_USAGE, "rotid: --csv writes the tables of one state, expected --set FIT.STATE=NAME of one\n");
     pool_open(&pool, NULL);
     for (; *name && command->csv && !code; name++) {

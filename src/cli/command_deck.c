@@ -20,24 +20,21 @@ void command_take_messages(struct command *command, const char *state, int count
                     message[i].column, state ? "%s (state %s)" : "%s", message[i].text, state);
 }
 
-int command_state_count(const struct command *command)
+int command_each_state(struct command *command, struct result *result, command_of_state *work, int *count)
 {
-    return command->read->nstate ? command->read->nstate : 1;
-}
-
-const rotid_deck *command_state(const struct command *command, int i, const char **name)
-{
-    *name = command->read->nstate ? command->read->state_name[i] : NULL;
-    return command->read->nstate ? command->read->state[i] : command->read;
-}
-
-int command_begin_states(struct command *command, struct result *result)
-{
-    result->nstates = command->read->nstate;
-    result->states = POOL_ARRAY(&command->pool, struct result_state, result->nstates);
-    for (int i = 0; i < result->nstates && result->states; i++)
-        result->states[i].name = command->read->state_name[i];
-    return result->states ? EXIT_DONE : command_fail(command, ROTID_ERROR_MEMORY);
+    const rotid_deck *read = command->read;
+    int code = EXIT_DONE, several = result->nstates = read->nstate;
+    *count = POOL_LIST(&command->pool, result->states, several ? several : 1);
+    for (int s = 0; s < *count && !code; s++) {
+        result->states[s].name = several ? read->state_name[s] : NULL;
+        code = work(command, several ? read->state[s] : read, &result->states[s]);
+    }
+    if (!*count)
+        return command_fail(command, ROTID_ERROR_MEMORY);
+    result->check = result->states->check;
+    result->modes = result->states->modes;
+    result->sensitivity = result->states->sensitivity;
+    return code;
 }
 
 int command_read_deck(struct command *command)
@@ -115,16 +112,14 @@ int command_fit_deck(struct command *command, int wanted, const char *what, stru
 {
     const struct states *states = deck_states_of(command->read);
     struct identification *found = POOL_ARRAY(&command->pool, struct identification, states->nstate);
-    int measured = 0, chosen = chosen_state(command), status = ROTID_OK;
+    int chosen = chosen_state(command), status = ROTID_OK;
     *fit = (struct command_fit){.count = chosen < 0 ? states->nstate : 1,
                                 .state = POOL_ARRAY(&command->pool, struct fitted_state, states->nstate)};
     if (!found || !fit->state)
         return command_fail(command, ROTID_ERROR_MEMORY);
     if (chosen == -2)
         return command_fail(command, ROTID_ERROR_ARGUMENT);
-    for (int s = 0; s < states->nstate; s++)
-        measured += states->state[s].job.measurement.nmode;
-    if (wanted && measured)
+    if (wanted && states_modes(states, states->nstate))
         status = fit_all(command, states, found, fit);
     else if (wanted && states->nparameter)
         message_warn(&command->messages,

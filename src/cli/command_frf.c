@@ -116,18 +116,17 @@ static int synthesise_all(struct command *command, const struct command_fit *fit
 
 int command_frf(struct command *command)
 {
-    struct result result = {.head = command->head};
+    struct result result = {.head = command->head, .nstates = command->read->nstate};
     struct command_fit fit = {0};
-    int code;
     if (command->output && command->read->nstate && !command->state)
         return command_fail(
             command,
             message_refuse(&command->messages, ROTID_ERROR_ARGUMENT, "--output", 1, 1,
                            "a universal file has no states and the deck has %d, expected --state %s or another one beside it",
                            command->read->nstate, command->read->state_name[0]));
-    code = command_begin_states(command, &result);
-    if (!code)
-        code = command_fit_deck(command, 1, "a lateral transfer function", &fit);
+    result.states = POOL_ARRAY(&command->pool, struct result_state, result.nstates);
+    int code = result.states ? command_fit_deck(command, 1, "a lateral transfer function", &fit)
+                             : command_fail(command, ROTID_ERROR_MEMORY);
     result.nstates = result.nstates ? fit.count : 0;
     if (!code)
         code = synthesise_all(command, &fit, &result);

@@ -78,8 +78,7 @@ static int select_parameters(struct command *command, const struct job *job, str
     return ROTID_OK;
 }
 
-/* Of a state, or of a deck that is one. */
-static int run(struct command *command, const rotid_deck *deck, const char *state, struct sensitivity *found)
+static int run(struct command *command, const rotid_deck *deck, struct result_state *state)
 {
     const struct job *job = deck_job_of(deck);
     struct selection selection;
@@ -93,32 +92,25 @@ static int run(struct command *command, const rotid_deck *deck, const char *stat
     if (!options.modes)
         options.modes = MODES_WITHOUT_DATA;
     int status = select_parameters(command, job, &selection);
-    if (status == ROTID_ERROR_SYNTAX && state)
+    if (status == ROTID_ERROR_SYNTAX && state->name)
         message_add(&command->messages, SEVERITY_ERROR, job->deck, 1, 1,
-                    "this is of state %s, expected parameters that it has too, or one state as in --set FIT.STATE=%s", state,
-                    state);
-    return status ? status
-                  : sensitivity_run(&command->pool, job, selection.n, selection.parameter, selection.named, selection.x, &options,
-                                    found);
+                    "this is of state %s, expected parameters that it has too, or one state as in --set FIT.STATE=%s",
+                    state->name, state->name);
+    struct sensitivity *found = POOL_NEW(&command->pool, struct sensitivity);
+    if (!status)
+        status = found ? sensitivity_run(&command->pool, job, selection.n, selection.parameter, selection.named, selection.x,
+                                         &options, found)
+                       : ROTID_ERROR_MEMORY;
+    state->sensitivity = found;
+    return status ? command_fail(command, status) : EXIT_DONE;
 }
 
 int command_sensitivity(struct command *command)
 {
     struct result result = {.head = command->head};
-    int count = command_state_count(command), code = command_begin_states(command, &result), status = ROTID_OK;
-    struct sensitivity *found = POOL_ARRAY(&command->pool, struct sensitivity, count);
+    int count, code = command_each_state(command, &result, run, &count);
     if (code)
         return code;
-    for (int s = 0; s < count && found && !status; s++) {
-        const char *name;
-        const rotid_deck *deck = command_state(command, s, &name);
-        status = run(command, deck, name, &found[s]);
-        if (name)
-            result.states[s].sensitivity = &found[s];
-    }
-    if (status || !found)
-        return command_fail(command, found ? status : ROTID_ERROR_MEMORY);
-    result.sensitivity = found;
     if (command_wants_table(command)) {
         const struct screen to = command_screen(command);
         screen_sensitivity(&to, &result);
