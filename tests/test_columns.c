@@ -237,7 +237,7 @@ static int check_probe(const struct job *job, struct effect *effect, const struc
 {
     static const struct effect none = {.kind = &nothing};
     int checked = 0;
-    for (int p = 0; p < cause_parameters(effect); p++) {
+    for (int p = 0; p < effect_parameters(effect); p++) {
         const struct cause_parameter *size = &cause->parameter[p];
         if (p == cause->place || p == cause->width)
             continue;

@@ -50,7 +50,7 @@ UNIT_TEST(members_follow_a_motion_that_all_elements_can_follow)
         static const double end[3][2] = {{0.3, 0.7}, {0.1, 0.8}, {0.35, 0.65}};
         bend(&s.model->discrete.beam, q[0], q[1], q[2], u);
         for (int member = 0; member < 3; member++) {
-            model_member_deflection(s.model, member, u, 13, z, v);
+            discrete_member_deflection(&s.model->discrete, member, u, 13, z, v);
             assert_close(z[0], end[member][0], 1e-12, 0);
             assert_close(z[12], end[member][1], 1e-12, 0);
             for (int i = 0; i < 13; i++) {

@@ -389,7 +389,7 @@ POOL_TEST(names_find_the_parameters_of_effects)
     zone->variant = 2;
     assert_int_equal(parameter_find(rotor, "a.depth_shear", &parameter, &unit), 0);
     assert_int_equal(parameter.component, 3);
-    assert_int_equal(cause_parameters(zone), 4);
+    assert_int_equal(effect_parameters(zone), 4);
     assert_int_equal(parameter_find(rotor, "a.flexibility", &parameter, &unit), 2);
     assert_int_equal(parameter_find(rotor, "b.flexibility", &parameter, &unit), 1);
     assert_int_equal(parameter_find(rotor, "core.E", &parameter, &unit), 0);

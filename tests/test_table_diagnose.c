@@ -477,7 +477,7 @@ static void show(int verbose, int width)
     assert_non_null(out);
     struct result result;
     struct pool *memory = open_result(&result);
-    screen_diagnose(&(struct screen){out, memory, verbose, width}, &result);
+    screen_result(&(struct screen){out, memory, verbose, width}, &result, screen_diagnose);
     pool_free(memory);
     rewind(out);
     size_t length = fread(screen, 1, sizeof screen - 1, out);

@@ -45,7 +45,7 @@ rotid_compared_mode result_compared_mode(const struct job *job, const struct com
                                  .error_percent = 100 * (predicted_hz / job->measurement.frequency_hz[k] - 1),
                                  .mac = compared->mac[k],
                                  .nco = compared->nco[k],
-                                 .paired_by = pairing_basis_name(compared->basis[k]),
+                                 .paired_by = compared->basis[k] == PAIRED_BY_SHAPE ? "shape" : "number",
                                  .holdout = job->measurement.holdout && job->measurement.holdout[k],
                                  .residual = NAN,
                                  .type = mode_type_words[job->options.type]};

@@ -124,8 +124,7 @@ int command_wants_table(const struct command *command);
 /* Where they go. */
 struct screen command_screen(struct command *command);
 /* Where tables are wanted: those of a result, and behind them the warnings that have no place in a file. */
-void command_show(struct command *command, const struct result *result,
-                  void (*show)(const struct screen *, const struct result *));
+void command_show(struct command *command, const struct result *result, screen_of *show);
 
 /* Writes the result, with the warnings among the messages, where --json says; `code` unless that fails. */
 int command_write_result(struct command *command, struct result *result, int code);

@@ -78,13 +78,12 @@ struct screen command_screen(struct command *command)
     return (struct screen){terminal_out(), &command->pool, command->verbose, SCREEN_WIDTH};
 }
 
-void command_show(struct command *command, const struct result *result,
-                  void (*show)(const struct screen *, const struct result *))
+void command_show(struct command *command, const struct result *result, screen_of *show)
 {
     const struct screen to = command_screen(command);
     if (!command_wants_table(command))
         return;
-    show(&to, result);
+    screen_result(&to, result, show);
     screen_notes(&to, &command->messages);
 }
 

@@ -113,7 +113,7 @@ int command_sensitivity(struct command *command)
         return code;
     if (command_wants_table(command)) {
         const struct screen to = command_screen(command);
-        screen_sensitivity(&to, &result);
+        screen_result(&to, &result, screen_sensitivity);
     }
     return command_write_result(command, &result, EXIT_DONE);
 }

@@ -96,7 +96,7 @@ struct candidate candidate_listed(const struct scan *scan, int index)
     c.state_name = s->state_name;
     c.effect = s->effect;
     c.result.suspect = s->suspect;
-    c.nparameter = cause_parameters(&s->effect);
+    c.nparameter = effect_parameters(&s->effect);
     memcpy(c.fixed, s->fixed, sizeof c.fixed);
     return c;
 }

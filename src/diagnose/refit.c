@@ -54,7 +54,7 @@ int job_with_effect(struct pool *pool, const struct job *from, const double *x, 
 {
     const struct job copy = *from, *job = &copy; /* `to` may be the same */
     const struct rotor *rotor = &job->rotor;
-    int nown = job->unknowns.nparameter, nnew = cause_parameters(effect), index = rotor->neffect;
+    int nown = job->unknowns.nparameter, nnew = effect_parameters(effect), index = rotor->neffect;
     if (cause->solid) {
         int status = job_as_solid(pool, job, to);
         return status || !x ? status : job_started_at(pool, to, x, to);

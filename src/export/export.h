@@ -67,9 +67,8 @@ int export_model_open(struct pool *pool, const struct job *job, const struct ide
 double export_parameter(const struct export_model *model, int p);
 /* Standard deviation, NaN where it was not identified. */
 double export_parameter_std(const struct export_model *model, int p);
-/* Id of the sensor at master i, without sensors the node from 1; and where it is [m]. */
+/* Id of the sensor at master i, without sensors the node from 1. */
 int export_master_id(const struct export_model *model, int i);
-double export_master_z(const struct export_model *model, int i);
 
 /* The entries of a matrix one by one. */
 

@@ -276,7 +276,7 @@ static int write_deck(struct writer *w, int condensed, const char *const *name, 
     put_case(stream, model, name, remainder);
     for (int i = 0; i < count; i++)
         put_grid(stream, condensed ? export_master_id(model, i) : i + 1,
-                 condensed ? export_master_z(model, i) : model->node[i].z);
+                 condensed ? model_master_z(model->discrete, i) : model->node[i].z);
     if (!condensed)
         (void)fprintf(stream, "SPC1    %8d%8d%8d%8s%8d\n", 1, 2346, 1, "THRU", count);
     for (int i = 0; i < count && condensed; i++)
@@ -357,7 +357,7 @@ static int write_condensed(FILE *stream, const struct export_model *model, const
     remark_condensed(&remark, model);
     for (int i = 0; i < n; i++)
         remark_put(&remark, "row %d: %s %d at %.10g m", i + 1, model->job->rotor.nsensor ? "sensor" : "node",
-                   export_master_id(model, i), export_master_z(model, i));
+                   export_master_id(model, i), model_master_z(model->discrete, i));
     (void)fprintf(stream, "%d %d\n", n, n);
     for (int j = 0; j < n; j++)
         for (int i = j; i < n; i++)

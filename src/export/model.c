@@ -156,11 +156,6 @@ int export_master_id(const struct export_model *model, int i)
     return model->is_solid ? model->discrete->discrete.solid.mesh.surface[i] + 1 : model->discrete->master[i] / 2 + 1;
 }
 
-double export_master_z(const struct export_model *model, int i)
-{
-    return model_master_z(model->discrete, i);
-}
-
 /* the first row beyond the last one that can have an entry in the column: in the band, then far ones */
 static int row_after(const rotid_matrix *a, int row, int column)
 {

@@ -590,17 +590,6 @@ static int attempt(struct eigen_band *e, const rotid_matrix *k, const rotid_matr
     return status || none_missed(e, k, m) ? status : ROTID_ERROR_EIGEN;
 }
 
-void eigen_band_want(struct eigen_band *e, int from, int to)
-{
-    e->from = from;
-    e->to = to;
-}
-
-void eigen_band_within(struct eigen_band *e, double residual)
-{
-    e->within = residual;
-}
-
 void eigen_band_begin(struct eigen_band *e, const double *phi)
 {
     size_t known = (size_t)e->n * (size_t)e->count;

@@ -158,22 +158,6 @@ static void give(struct eigen_wide *e, double *lambda, double *phi)
     }
 }
 
-void eigen_wide_want(struct eigen_wide *e, int from, int to)
-{
-    e->from = from;
-    e->to = to;
-}
-
-void eigen_wide_within(struct eigen_wide *e, double residual)
-{
-    e->within = residual;
-}
-
-void eigen_wide_vouch(struct eigen_wide *e)
-{
-    e->vouched = 1;
-}
-
 /* The next solution begins with phi [n * count], vectors near the lowest pairs, in any scale. */
 static void eigen_wide_begin(struct eigen_wide *e, const double *phi)
 {
@@ -257,24 +241,18 @@ int eigen_full_new_dense(struct pool *pool, const rotid_matrix *structure, int c
 
 void eigen_full_want(struct eigen_full *e, int from, int to)
 {
-    if (e->wide)
-        eigen_wide_want(&e->panels, from, to);
-    else if (!e->dense)
-        eigen_band_want(&e->band, from, to);
+    e->panels.from = e->band.from = from;
+    e->panels.to = e->band.to = to;
 }
 
 void eigen_full_within(struct eigen_full *e, double residual)
 {
-    if (e->wide)
-        eigen_wide_within(&e->panels, residual);
-    else if (!e->dense)
-        eigen_band_within(&e->band, residual);
+    e->panels.within = e->band.within = residual;
 }
 
 void eigen_full_vouch(struct eigen_full *e)
 {
-    if (e->wide)
-        eigen_wide_vouch(&e->panels);
+    e->panels.vouched = 1;
 }
 
 void eigen_full_begin(struct eigen_full *e, const double *phi)

@@ -295,15 +295,6 @@ int eigen_wide_new(struct pool *pool, const rotid_matrix *structure, int count, 
  * ROTID_ERROR_STIFFNESS, ROTID_ERROR_MASS or ROTID_ERROR_EIGEN. */
 int eigen_wide_solve(struct eigen_wide *e, const rotid_matrix *k, const rotid_matrix *m, double *lambda, double *phi);
 
-/* As eigen_band_want; the eigenvalues of the others are then off by the square of 1e-4. */
-void eigen_wide_want(struct eigen_wide *e, int from, int to);
-
-/* Vectors off by `residual` at most, and eigenvalues by its square, in place of as good as their arithmetic. */
-void eigen_wide_within(struct eigen_wide *e, double residual);
-
-/* M is positive definite for a reason that the caller knows: it is not factored to see that. */
-void eigen_wide_vouch(struct eigen_wide *e);
-
 /* ----------------------------------------------------------------------------------------------------------------- eigen */
 
 /* Eigenpairs of K phi = lambda M phi, phi' M phi = 1, lambda ascending. */
@@ -366,13 +357,6 @@ int eigen_band_new(struct pool *pool, const rotid_matrix *structure, int count, 
  * ROTID_ERROR_STIFFNESS, ROTID_ERROR_MASS or ROTID_ERROR_EIGEN. */
 int eigen_band_solve(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m, double *lambda, double *phi);
 
-/* Only pairs from ... to - 1 of the count are wanted to the last digit; the others may be off by a part in a hundred of their
- * length, and by the square of that in lambda. None is missed all the same. */
-void eigen_band_want(struct eigen_band *e, int from, int to);
-
-/* As eigen_wide_within. */
-void eigen_band_within(struct eigen_band *e, double residual);
-
 /* The next solution begins with phi [n * count], vectors near the lowest pairs, in any scale. */
 void eigen_band_begin(struct eigen_band *e, const double *phi);
 
@@ -393,10 +377,12 @@ int eigen_full_new(struct pool *pool, const rotid_matrix *structure, int count, 
 /* The dense one in any case. */
 int eigen_full_new_dense(struct pool *pool, const rotid_matrix *structure, int count, struct eigen_full *e);
 
-/* As eigen_band_want, where that makes a difference. */
+/* Only pairs from ... to - 1 of the count are wanted to the last digit; the others may be off by a part in a hundred of their
+ * length (of a wide band 1e-4), and by the square of that in lambda. None is missed all the same. The dense solver gives all. */
 void eigen_full_want(struct eigen_full *e, int from, int to);
 
-/* As eigen_wide_within and eigen_wide_vouch, where that makes a difference. */
+/* Vectors off by `residual` at most, and eigenvalues by its square, in place of as good as their arithmetic; M is positive
+ * definite for a reason that the caller knows: it is not factored to see that. Where that makes a difference. */
 void eigen_full_within(struct eigen_full *e, double residual);
 void eigen_full_vouch(struct eigen_full *e);
 

@@ -312,9 +312,6 @@ enum pairing_basis {
     PAIRED_BY_SHAPE
 };
 
-/* "number" or "shape". */
-const char *pairing_basis_name(enum pairing_basis basis);
-
 /* Pairs measured modes [nmode] with model modes [ncandidate] by their correlation [nmode * ncandidate] (NCO or MAC, column a
  * candidate; NULL: no shapes). number [nmode], counted from 1: in, as the data has it; out, as the shapes say where they say it.
  * Modes that the shapes place take their partner first, strongest correlation first; the others keep their number if it is still

@@ -51,8 +51,3 @@ int pair_modes(int nmode, int ncandidate, const double *correlation, int *number
     }
     return 0;
 }
-
-const char *pairing_basis_name(enum pairing_basis basis)
-{
-    return basis == PAIRED_BY_SHAPE ? "shape" : "number";
-}

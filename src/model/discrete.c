@@ -380,7 +380,7 @@ struct mesh_limit discrete_mesh_limit(enum discretisation as, const struct rotor
     if (!discretisation_is_solid(as))
         return (struct mesh_limit){2, -4.0 / 3, 0, 0, 0, 1};
     int twist = as == AS_SOLID_TORSION;
-    if (!solid_has_corners(rotor)) {
+    if (!outline_has_corners(rotor)) {
         double share = fmin(OF_SMOOTH * largest_share(rotor, twist), OF_EDGE);
         double most = twist ? share : fmax(share, fmin(OF_SMOOTH * contrast(rotor), OF_INTERFACE));
         return (struct mesh_limit){COARSE_MESH, share, 1, 4, share, most / share};
@@ -393,7 +393,7 @@ struct mesh_limit discrete_mesh_limit(enum discretisation as, const struct rotor
 double discrete_passage(const struct discrete *discrete)
 {
     const struct rotor *rotor = &discrete->solid.rotor;
-    double longest = is_solid(discrete) && solid_has_corners(rotor) ? solid_longest_passage(&discrete->solid) : 0;
+    double longest = is_solid(discrete) && outline_has_corners(rotor) ? solid_longest_passage(&discrete->solid) : 0;
     return longest * pow(largest_share(rotor, discrete->as == AS_SOLID_TORSION), 0.25);
 }
 

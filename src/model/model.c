@@ -226,3 +226,16 @@ int model_sensor_alone(struct pool *pool, const struct rotor *rotor, int s, int 
         *alone &= i == s || mesh.sensor_node[i] != mesh.sensor_node[s];
     return status;
 }
+
+double model_deflection(const struct rotor_model *model, int i, const double *u)
+{
+    return u[discrete_place_dof(&model->discrete, i)];
+}
+
+struct model_member model_member(const struct rotor_model *model, int i)
+{
+    const struct rotor *rotor = model->rotor;
+    int bars = i - rotor->ntierod;
+    return (struct model_member){bars < 0 ? rotor->tierod[i].name : rotor->bars[bars].name, bars >= 0,
+                                 discrete_member_elements(&model->discrete, i)};
+}

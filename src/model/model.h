@@ -13,7 +13,7 @@
  *   mesh limit     discrete.c (discrete_mesh_limit): f - share (g - f) of a mesh f and a refined or coarse one g (Richardson)
  *   basis          model.c (model_in_basis): a solid for motions u = V q alone, q its unknowns
  *   one run        models.c (models_for_run, models_discretise): meshes, mode counts and vectors are made once and used again
- *   deflection     deflection.c: along the axis, at sensors, of members; meridian.c: the solid's mesh and motion for results
+ *   meridian.c     the solid's mesh and motion for results
  *
  * Callers: run, diagnose, api, export, study, which give rotor_model.equations to src/modal or src/fit for modes and fits. Of
  * the rooms above only export looks into `discrete`. The room must not know measured data, residuals or fits. */
@@ -98,7 +98,8 @@ double discrete_sensor_z(const struct discrete *discrete, int sensor);
 /* After another effect took the place of one: settles where joints are. ROTID_OK or ROTID_ERROR_MEMORY. */
 int discrete_place_joints(struct pool *pool, struct discrete *discrete);
 
-/* How many elements member i (tie rods, then bars) has, and its deflection v [npoint] at npoint >= 2 even places z [npoint]. */
+/* How many elements member i (tie rods, then bars) has, and its deflection v [npoint] in the motion u at npoint >= 2 even places
+ * z [npoint] from its left end to the right one. */
 int discrete_member_elements(const struct discrete *discrete, int i);
 void discrete_member_deflection(const struct discrete *discrete, int i, const double *u, int npoint, double *z, double *v);
 
@@ -248,21 +249,16 @@ int model_begin_with(struct pool *pool, struct rotor_model *model, const struct 
 /* How a rotor deflects in a motion of all degrees of freedom: along its axis, at its sensors, and the members beside it. Values
  * of parameters are those of the last evaluation. */
 
-/* Lateral deflection at place i of model->z, and at a sensor, in the motion u [n]. */
+/* Lateral deflection at place i of model->z in the motion u [n]. */
 double model_deflection(const struct rotor_model *model, int i, const double *u);
-double model_sensor_deflection(const struct rotor_model *model, int sensor, const double *u);
 
 struct model_member { /* tie rods or bars */
     const char *name;
     int is_bars, elements; /* elements: over its length */
 };
 
-/* How many members there are, and the i-th of them: tie rods first. */
-int model_members(const struct rotor_model *model);
+/* The i-th of them: tie rods first. */
 struct model_member model_member(const struct rotor_model *model, int i);
-
-/* Deflection v [npoint] of member i at npoint >= 2 even places z [npoint] from its left end to the right one. */
-void model_member_deflection(const struct rotor_model *model, int i, const double *u, int npoint, double *z, double *v);
 
 /* -------------------------------------------------------------------------------------------------------------- meridian */
 

@@ -411,7 +411,6 @@ void screen_diagnose(const struct screen *to, const struct result *result)
     const rotid_verdict *v = &d->verdict;
     const rotid_identification *last = d->extended ? d->extended : d->base;
     const struct reasons findings = findings_of_diagnosis(to->pool, d);
-    screen_heading(to, &result->head);
     print_verdict(to, d);
     screen_table(to, table_of_explanations(to->pool, d, to->verbose));
     if (last && v->sentence)

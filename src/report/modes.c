@@ -3,20 +3,6 @@
 
 #include "report/report.h"
 
-/* The heading and what a command found, of several states one after the other. */
-static void print_states(const struct screen *to, const struct result *result,
-                         void (*print)(const struct screen *to, const struct result *result))
-{
-    screen_heading(to, &result->head);
-    if (!result->nstates)
-        print(to, result);
-    for (int s = 0; s < result->nstates; s++) {
-        const struct result own = result_of_state(to->pool, result, s);
-        screen_state(to, s, result->states[s].name);
-        print(to, &own);
-    }
-}
-
 /* ---- check */
 
 /* What an effect acts on, as its hooks tell; "" where that is the whole rotor. */
@@ -107,7 +93,7 @@ static int is_free(int count, const double *hz)
     return free;
 }
 
-static void print_check(const struct screen *to, const struct result *result)
+void screen_check(const struct screen *to, const struct result *result)
 {
     const struct job *job = result->job;
     const rotid_check *check = result->check;
@@ -148,11 +134,6 @@ static void print_check(const struct screen *to, const struct result *result)
     const char *steps = doubt_steps(to->pool, job);
     if (steps)
         screen_say(to, "%s", steps);
-}
-
-void screen_check(const struct screen *to, const struct result *result)
-{
-    print_states(to, result, print_check);
 }
 
 /* ---- modes */
@@ -245,17 +226,12 @@ struct shown shown_of_modes(struct pool *pool, const rotid_spectrum *s)
     return shown;
 }
 
-static void print_modes(const struct screen *to, const struct result *result)
+void screen_modes(const struct screen *to, const struct result *result)
 {
     const struct shown shown = shown_of_modes(to->pool, result->modes);
     screen_shown(to, &shown);
     if (to->verbose)
         screen_table(to, table_of_shapes(to->pool, NULL, result->modes));
-}
-
-void screen_modes(const struct screen *to, const struct result *result)
-{
-    print_states(to, result, print_modes);
 }
 
 /* ---- sensitivity */
@@ -314,7 +290,7 @@ static struct table *table_of_curves(struct pool *pool, const struct sensitivity
     return table;
 }
 
-static void print_sensitivity(const struct screen *to, const struct result *result)
+void screen_sensitivity(const struct screen *to, const struct result *result)
 {
     const struct sensitivity *s = result->sensitivity;
     struct pool *pool = to->pool;
@@ -324,9 +300,4 @@ static void print_sensitivity(const struct screen *to, const struct result *resu
         screen_table(to, table_of_quotients(pool, &result->head, s, &s->parameters[p]));
         screen_table(to, table_of_curves(pool, s, &s->parameters[p]));
     }
-}
-
-void screen_sensitivity(const struct screen *to, const struct result *result)
-{
-    print_states(to, result, print_sensitivity);
 }

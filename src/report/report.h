@@ -427,12 +427,10 @@ void screen_shown(const struct screen *to, const struct shown *shown);
 /* A table behind an empty line; nothing of one without rows. */
 void screen_table(const struct screen *to, const struct table *table);
 
-/* The CAUSE cards of the job of each state are told. */
-void screen_check(const struct screen *to, const struct result *result);
-void screen_modes(const struct screen *to, const struct result *result);
-void screen_suggest(const struct screen *to, const struct result *result);
-void screen_sensitivity(const struct screen *to, const struct result *result);
-void screen_speeds(const struct screen *to, const struct result *result);
+/* The heading and what a command found, of several states one after the other. The CAUSE cards of a check are told. */
+typedef void screen_of(const struct screen *to, const struct result *result);
+void screen_result(const struct screen *to, const struct result *result, screen_of *print);
+screen_of screen_check, screen_modes, screen_suggest, screen_sensitivity, screen_speeds, screen_diagnose;
 /* baseline: NLopt was asked for */
 void screen_identify(const struct screen *to, const struct result *result, int baseline);
 /* The summary, the sets, the doubtful places; sets that are alike share a row, at most about forty. */
@@ -445,8 +443,6 @@ void screen_scatter(const struct screen *to, int count, const char *const *file,
                     const struct ema_scatter *scatter, const char *output);
 /* Behind a heading. */
 void screen_frf(const struct screen *to, const struct frf_view *view, const struct transfer_result *of);
-
-void screen_diagnose(const struct screen *to, const struct result *result);
 
 /* -------------------------------------------------------------------------------------------------------------- terminal */
 

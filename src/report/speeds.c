@@ -241,6 +241,5 @@ struct shown shown_of_speeds(struct pool *pool, const rotid_speeds *s, int all)
 void screen_speeds(const struct screen *to, const struct result *result)
 {
     const struct shown shown = shown_of_speeds(to->pool, result->speeds, to->verbose);
-    screen_heading(to, &result->head);
     screen_shown(to, &shown);
 }

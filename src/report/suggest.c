@@ -182,7 +182,6 @@ struct shown shown_of_suggestion(struct pool *pool, const rotid_suggestion *s, i
 void screen_suggest(const struct screen *to, const struct result *result)
 {
     const struct shown shown = shown_of_suggestion(to->pool, result->suggest, to->verbose);
-    screen_heading(to, &result->head);
     screen_say(to, "\nSUGGESTION");
     screen_paragraph(to, "  ", result->suggest->sentence);
     screen_shown(to, &shown);

@@ -401,6 +401,18 @@ void screen_state(const struct screen *to, int i, const char *name)
     (void)fprintf(to->out, "%sstate %s\n", i ? "\n" : "", name);
 }
 
+void screen_result(const struct screen *to, const struct result *result, screen_of *print)
+{
+    screen_heading(to, &result->head);
+    if (!result->nstates)
+        print(to, result);
+    for (int s = 0; s < result->nstates; s++) {
+        const struct result own = result_of_state(to->pool, result, s);
+        screen_state(to, s, result->states[s].name);
+        print(to, &own);
+    }
+}
+
 void screen_notes(const struct screen *to, const struct message_list *notes)
 {
     int any = 0;

@@ -88,7 +88,7 @@ static void put_member(struct pool *pool, const struct rotor_model *model, int i
                                    .shape = POOL_ARRAY(pool, double, elements + 1)};
     if (!member->z_m || !member->shape)
         return;
-    model_member_deflection(model, i, u, member->nz_m, member->z_m, member->shape);
+    discrete_member_deflection(&model->discrete, i, u, member->nz_m, member->z_m, member->shape);
     scale(member->nz_m, factor, member->shape);
 }
 
@@ -96,14 +96,14 @@ static void put_member(struct pool *pool, const struct rotor_model *model, int i
 static void put_predicted(struct pool *pool, const struct spectrum *s, int naxis, rotid_mode_shapes *out)
 {
     const struct rotor_model *model = s->model;
-    int there = out->mode >= 1 && out->mode <= s->count, nmember = model_members(model);
+    int there = out->mode >= 1 && out->mode <= s->count, nmember = model->rotor->ntierod + model->rotor->nbars;
     const double *u = s->phi + (ptrdiff_t)(there ? out->mode - 1 : 0) * model->equations.n;
     out->npredicted = POOL_LIST(pool, out->predicted, model->rotor->nsensor);
     out->npredicted_axis = POOL_LIST(pool, out->predicted_axis, naxis);
     if (!POOL_LIST(pool, out->tierods, nmember) || !POOL_LIST(pool, out->bars, nmember))
         nmember = 0;
     for (int i = 0; i < out->npredicted; i++)
-        out->predicted[i] = model_sensor_deflection(model, i, u);
+        out->predicted[i] = u[discrete_sensor_dof(&model->discrete, i)];
     for (int i = 0; i < out->npredicted_axis; i++)
         out->predicted_axis[i] = model_deflection(model, shown(model, i, naxis), u);
     double factor = there && out->predicted ? best_scale(out) : NAN;

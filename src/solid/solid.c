@@ -569,11 +569,6 @@ const char *solid_refusal(const struct rotor *rotor, int failed)
     return "the holes leave nothing of the annulus that they lie in, expected fewer or smaller ones";
 }
 
-int solid_has_corners(const struct rotor *rotor)
-{
-    return outline_has_corners(rotor);
-}
-
 double solid_longest_passage(const struct solid *solid)
 {
     const struct solid_mesh *mesh = &solid->mesh;

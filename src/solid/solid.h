@@ -238,9 +238,6 @@ int solid_build(struct pool *pool, const struct rotor *rotor, int nparameter, co
 /* Why solid_build refused a rotor with ROTID_ERROR_SECTION and this *failed, and what was expected; to follow the place. */
 const char *solid_refusal(const struct rotor *rotor, int failed);
 
-/* Whether the outline has a re-entrant corner, where errors fall slower than elsewhere. */
-int solid_has_corners(const struct rotor *rotor);
-
 /* The longest time [s] in which a shear wave along the axis, of G and the density of its group, passes an element: times a
  * frequency, the share of a wave that the element has to follow. Values of parameters are those of the last assembly. */
 double solid_longest_passage(const struct solid *solid);
@@ -402,7 +399,7 @@ int outline_corner(const struct rotor *rotor, int s, double r);
 /* Length over the largest diameter. */
 double outline_slenderness(const struct rotor *rotor);
 
-/* Whether any end of a segment has one. */
+/* Whether any end of a segment has one: errors fall slower there than elsewhere. */
 int outline_has_corners(const struct rotor *rotor);
 
 /* Lines of constant r, x [*nr], and of constant z, z [*nz] with the segment [*nz - 1] of each slice. ROTID_OK or

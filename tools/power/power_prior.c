@@ -184,7 +184,7 @@ static int add_causes(struct drawing *d)
         }
         c.effect.name = pool_format(d->pool, "hidden_%d", i + 1);
         status = c.effect.name ? job_with_effect(d->pool, &d->job, NULL, &c.effect, c.cause, NULL, &d->job) : ROTID_ERROR_MEMORY;
-        for (int p = 0; p < cause_parameters(&c.effect) && !c.cause->solid; p++)
+        for (int p = 0; p < effect_parameters(&c.effect) && !c.cause->solid; p++)
             d->x[n++] = value[p];
     }
     return status_of(status);

@@ -7,11 +7,6 @@ int cause_of_beam(const struct cause_kind *cause)
     return cause->solid || (cause->effect && cause->effect->section);
 }
 
-int cause_parameters(const struct effect *effect)
-{
-    return effect_parameters(effect);
-}
-
 void cause_range(const struct cause_kind *cause, const struct rotor *rotor, const struct effect *effect, int p, double *lower,
                  double *upper)
 {

@@ -114,9 +114,6 @@ double *correction_value(struct correction *correction, int p);
 /* Whether a cause is an error of beams alone, which a solid does not have. */
 int cause_of_beam(const struct cause_kind *cause);
 
-/* The number of parameters of an effect in use, the first ones of its kind: a soft zone of one depth has no depth_shear. */
-int cause_parameters(const struct effect *effect);
-
 /* The usual bounds of parameter p, on this rotor; infinite ones where the cause states none. */
 void cause_range(const struct cause_kind *cause, const struct rotor *rotor, const struct effect *effect, int p, double *lower,
                  double *upper);
