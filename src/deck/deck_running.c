@@ -649,10 +649,7 @@ void deck_read_machine(struct deck_reader *reader, struct states *states)
                 deck_read_card(&own, &reader->running[c], kind);
         }
     deck_check_unique(reader, reader->nrunning, reader->running, 1);
-    reader->text.nfile = own.text.nfile;
-    reader->text.file = own.text.file;
-    reader->text.ntable = own.text.ntable;
-    reader->text.table = own.text.table;
+    reader->text = own.text; /* with the files and tables that were read */
     if (reader->pool->out_of_memory)
         return;
     if (!own.machine->nbearing && !reader->messages->errors)

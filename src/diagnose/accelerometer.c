@@ -37,9 +37,10 @@ static void widen(double *std, double *raw, double more)
         *raw *= *std / before;
 }
 
-static double *raw_value(struct job *job, double *of, int s, int k)
+static double *raw_value(struct job *job, int std, int s, int k)
 {
-    return of ? &of[raw_sensor(job, s) + (ptrdiff_t)k * job->measurement.raw->nsensor] : NULL;
+    const struct job_raw *raw = job->measurement.raw;
+    return raw ? &(std ? raw->shape_std : raw->shape)[raw_sensor(job, s) + (ptrdiff_t)k * raw->nsensor] : NULL;
 }
 
 /* The model has the mass spread over all sensors, so a shape that is free of the accelerometer gets what that does to it. */
@@ -54,8 +55,7 @@ static void spread_mass(struct job *job, const struct weighing *w, int m, double
             square += phi[s] * phi[s];
         }
     for (int s = 0; s < w->npoint; s++) {
-        double *raw = raw_value(job, job->measurement.raw ? job->measurement.raw->shape : NULL, s, k),
-               more = product / square * mass * spread[s];
+        double *raw = raw_value(job, 0, s, k), more = product / square * mass * spread[s];
         if (!isfinite(shape[s]))
             continue;
         shape[s] += more;
@@ -84,8 +84,7 @@ static int loaded_shapes_correct(struct job *job, const struct weighing *w, doub
         corrected += known;
         for (int s = 0; s < w->npoint && largest > 0; s++) {
             ptrdiff_t at = s + (ptrdiff_t)k * w->npoint, model = s + (ptrdiff_t)m * w->npoint;
-            double *raw_std = raw_value(job, job->measurement.raw ? job->measurement.raw->shape_std : NULL, s, k),
-                   *raw = raw_value(job, job->measurement.raw ? job->measurement.raw->shape : NULL, s, k),
+            double *raw_std = raw_value(job, 1, s, k), *raw = raw_value(job, 0, s, k),
                    size = mass * (w->square[model] + fabs(w->others[model])), share = fabs(phi[s]) / largest;
             if (!isfinite(job->measurement.shape[at]))
                 continue;
@@ -119,8 +118,7 @@ static void loaded_shapes_allow(struct job *job, const struct weighing *w, doubl
         for (int s = 0; s < w->npoint && largest > 0; s++) {
             ptrdiff_t at = s + (ptrdiff_t)k * w->npoint, model = s + (ptrdiff_t)m * w->npoint;
             if (isfinite(job->measurement.shape[at]))
-                widen(&job->measurement.shape_std[at],
-                      raw_value(job, job->measurement.raw ? job->measurement.raw->shape_std : NULL, s, k),
+                widen(&job->measurement.shape_std[at], raw_value(job, 1, s, k),
                       mass * (w->square[model] + fabs(w->others[model])) * fabs(phi[s]) / largest);
         }
     }

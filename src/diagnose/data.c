@@ -74,30 +74,28 @@ int data_add_pairing(struct engine *engine, int first, int second, const char *t
     return data_add_finding(engine, &finding);
 }
 
-/* Mode k goes out of [nsensor * nmode]. */
-static void remove_column(const struct job *job, double *values, int k)
-{
-    ptrdiff_t nsensor = job->rotor.nsensor;
-    if (values)
-        memmove(values + k * nsensor, values + (k + 1) * nsensor,
-                (size_t)((job->measurement.nmode - k - 1) * nsensor) * sizeof *values);
-}
-
 void data_remove_mode(struct job *job, int k)
 {
-    int behind = job->measurement.nmode - k - 1;
-    memmove(job->measurement.number + k, job->measurement.number + k + 1, (size_t)behind * sizeof *job->measurement.number);
-    memmove(job->measurement.frequency_hz + k, job->measurement.frequency_hz + k + 1,
-            (size_t)behind * sizeof *job->measurement.frequency_hz);
-    memmove(job->measurement.damping + k, job->measurement.damping + k + 1, (size_t)behind * sizeof *job->measurement.damping);
-    memmove(job->measurement.frequency_std + k, job->measurement.frequency_std + k + 1,
-            (size_t)behind * sizeof *job->measurement.frequency_std);
-    memmove(job->measurement.holdout + k, job->measurement.holdout + k + 1, (size_t)behind * sizeof *job->measurement.holdout);
-    double *const table[] = {job->measurement.shape, job->measurement.shape ? job->measurement.shape_std : NULL,
-                             job->measurement.point_frequency_hz, job->measurement.point_frequency_std};
-    for (size_t i = 0; i < sizeof table / sizeof *table; i++)
-        remove_column(job, table[i], k);
-    job->measurement.nmode--;
+    struct job_measurement *m = &job->measurement;
+    ptrdiff_t nsensor = job->rotor.nsensor;
+    size_t behind = (size_t)(m->nmode - k - 1);
+    memmove(m->number + k, m->number + k + 1, behind * sizeof *m->number);
+    memmove(m->holdout + k, m->holdout + k + 1, behind * sizeof *m->holdout);
+    const struct {
+        double *value;
+        ptrdiff_t rows; /* of a mode */
+    } of[] = {{m->frequency_hz, 1},
+              {m->damping, 1},
+              {m->frequency_std, 1},
+              {m->shape, nsensor},
+              {m->shape ? m->shape_std : NULL, nsensor},
+              {m->point_frequency_hz, nsensor},
+              {m->point_frequency_std, nsensor}};
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++)
+        if (of[i].value)
+            memmove(of[i].value + k * of[i].rows, of[i].value + (k + 1) * of[i].rows,
+                    behind * (size_t)of[i].rows * sizeof *of[i].value);
+    m->nmode--;
 }
 
 void data_remove_double(struct job *job, int k)

@@ -242,11 +242,7 @@ int explanation_explains(const struct engine *engine, const struct posterior *p,
 
 /* ---- what follows of the list */
 
-static int by_probability(const void *a, const void *b)
-{
-    double one = ((const struct marginal *)a)->probability, two = ((const struct marginal *)b)->probability;
-    return (one < two) - (one > two);
-}
+ORDER_BY(by_probability, struct marginal, -it->probability, 0)
 
 int posterior_marginals(struct pool *pool, struct posterior *p)
 {

@@ -18,8 +18,7 @@ int rotor_copy(struct pool *pool, const struct rotor *rotor, struct rotor *copy)
     copy->spring = POOL_COPY(pool, rotor->spring, rotor->nspring, sling);
     copy->sensor = POOL_COPY(pool, rotor->sensor, rotor->nsensor, 0);
     copy->effect = POOL_COPY(pool, rotor->effect, rotor->neffect, 0);
-    if (!copy->group || !copy->segment || !copy->ring || !copy->tierod || !copy->bars || !copy->disk || !copy->spring ||
-        !copy->sensor || !copy->effect)
+    if (pool->out_of_memory)
         return ROTID_ERROR_MEMORY;
     if (sling) {
         copy->spring[copy->nspring++] = (struct spring){.name = "sling", .position = 0};

@@ -47,16 +47,17 @@ int mesh_hold_as_it_is(struct pool *pool, struct job *job, int count)
     return ROTID_OK;
 }
 
-/* shift [n] = shape - a other, a the least-squares scale */
-static void shape_shift(int n, const double *shape, const double *other, double *shift)
+/* out [n] := measured - a shift, a the least-squares scale of the shape to what is measured. */
+static void take_shift(int n, const double *measured, const double *shape, const double *shift, double *out)
 {
     double product = 0, square = 0;
-    for (int i = 0; i < n; i++) {
-        product += shape[i] * other[i];
-        square += other[i] * other[i];
-    }
     for (int i = 0; i < n; i++)
-        shift[i] = shape[i] - (square > 0 ? product / square : 0) * other[i];
+        if (isfinite(measured[i])) {
+            product += measured[i] * shape[i];
+            square += shape[i] * shape[i];
+        }
+    for (int i = 0; i < n; i++)
+        out[i] = measured[i] - (square > 0 ? product / square : 0) * shift[i];
 }
 
 int mesh_hold(struct pool *pool, struct job *job, const struct spectrum *s, double *moved)
@@ -74,23 +75,10 @@ int mesh_hold(struct pool *pool, struct job *job, const struct spectrum *s, doub
         if (j < known)
             *moved = fmax(*moved, fabs(held->ratio[j] / before->ratio[j] - 1));
         if (shapes)
-            shape_shift(s->nmaster, s->shape + at, s->other_shape + at, held->shift + at);
+            take_shift(s->nmaster, s->shape + at, s->other_shape + at, s->other_shape + at, held->shift + at);
     }
     job->held = held;
     return ROTID_OK;
-}
-
-/* The measured shape less the shift at its scale, by the components that are measured. */
-static void take_shift(int n, const double *measured, const double *shape, const double *shift, double *out)
-{
-    double product = 0, square = 0;
-    for (int i = 0; i < n; i++)
-        if (isfinite(measured[i])) {
-            product += measured[i] * shape[i];
-            square += shape[i] * shape[i];
-        }
-    for (int i = 0; i < n; i++)
-        out[i] = measured[i] - (square > 0 ? product / square : 0) * shift[i];
 }
 
 int mesh_of_fit(struct pool *pool, const struct job *job, const int *number, int *refine, double **frequency_hz,

@@ -5,17 +5,13 @@
 
 #define MOST_HALVINGS 64 /* from one end of an interval: no two doubles are further apart */
 
-static int compare(const void *a, const void *b)
-{
-    double x = ((const struct stop *)a)->at, y = ((const struct stop *)b)->at;
-    return (x > y) - (x < y);
-}
+ORDER_BY(by_place, struct stop, it->at, 0)
 
 /* Sorts stops, and makes one of those nearer than `tolerance`: the finest of their sizes. Returns how many are left. */
 static int stops_merge(int nstop, struct stop *stop, double tolerance)
 {
     int count = 0;
-    qsort(stop, (size_t)nstop, sizeof *stop, compare);
+    qsort(stop, (size_t)nstop, sizeof *stop, by_place);
     for (int i = 0; i < nstop; i++)
         if (count && stop[i].at - stop[count - 1].at <= tolerance) {
             struct stop *last = &stop[count - 1];

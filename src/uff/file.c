@@ -407,11 +407,7 @@ int uff_is_mode(const struct uff_shape *shape)
     return shape->analysis_type != FREQUENCY_RESPONSE; /* an operating shape */
 }
 
-static int compare_shapes(const void *left, const void *right)
-{
-    const struct uff_shape *const *a = left, *const *b = right;
-    return ((*a)->frequency_hz > (*b)->frequency_hz) - ((*a)->frequency_hz < (*b)->frequency_hz);
-}
+ORDER_BY(by_frequency, struct uff_shape *const, (*it)->frequency_hz, 0)
 
 /* A complex eigenvalue comes with its conjugate; two real modes of one frequency are two modes. */
 static int is_conjugate(const struct uff_shape *a, const struct uff_shape *b)
@@ -430,7 +426,7 @@ int uff_choose_modes(const struct uff_file *file, const struct uff_shape **chose
             *rigid += uff_is_mode(&file->shape[k]);
     }
     if (count)
-        qsort(chosen, (size_t)count, sizeof *chosen, compare_shapes);
+        qsort(chosen, (size_t)count, sizeof *chosen, by_frequency);
     for (int k = 0; k < count; k++)
         if (!kept || !is_conjugate(chosen[k], chosen[kept - 1]))
             chosen[kept++] = chosen[k];

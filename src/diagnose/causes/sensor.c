@@ -81,16 +81,12 @@ static void exchange(double *a, double *b)
 
 void shapes_exchange(struct job *job, int a, int b)
 {
-    for (int k = 0; k < job->measurement.nmode && job->measurement.shape; k++) {
-        ptrdiff_t mode = (ptrdiff_t)k * job->rotor.nsensor;
-        exchange(&job->measurement.shape[a + mode], &job->measurement.shape[b + mode]);
-        exchange(&job->measurement.shape_std[a + mode], &job->measurement.shape_std[b + mode]);
-    }
-    for (int k = 0; k < job->measurement.nmode && job->measurement.point_frequency_hz; k++) {
-        ptrdiff_t mode = (ptrdiff_t)k * job->rotor.nsensor;
-        exchange(&job->measurement.point_frequency_hz[a + mode], &job->measurement.point_frequency_hz[b + mode]);
-        exchange(&job->measurement.point_frequency_std[a + mode], &job->measurement.point_frequency_std[b + mode]);
-    }
+    struct job_measurement *m = &job->measurement;
+    double *const rows[] = {m->shape, m->shape ? m->shape_std : NULL, m->point_frequency_hz,
+                            m->point_frequency_hz ? m->point_frequency_std : NULL};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        for (ptrdiff_t k = 0; k < m->nmode && rows[i]; k++)
+            exchange(&rows[i][a + k * job->rotor.nsensor], &rows[i][b + k * job->rotor.nsensor]);
 }
 
 static void exchange_target(struct effect *effect, int a, int b)
