@@ -303,7 +303,7 @@ const struct states *deck_states(const rotid_deck *deck, struct call *call)
     for (int i = 0; handle && i < deck->nmessage; i++)
         if (deck->message[i].severity == ROTID_ERROR) {
             const rotid_message *m = &deck->message[i];
-            message_add(&call->notes, SEVERITY_ERROR, m->file, m->line, m->column, "%s", m->text);
+            message_at(&call->notes, SEVERITY_ERROR, *m, "%s", m->text);
             return NULL;
         }
     message_add(&call->notes, SEVERITY_ERROR, NULL, 0, 0, "there is no deck to work on, expected one without errors");

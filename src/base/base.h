@@ -195,6 +195,10 @@ void message_add(struct message_list *list, enum severity severity, const char *
 #define message_warn(list, ...) message_add((list), SEVERITY_WARNING, NULL, 0, 0, __VA_ARGS__)
 #define message_refuse(list, status, file, line, column, ...)                                                                    \
     (message_add((list), SEVERITY_ERROR, (file), (line), (column), __VA_ARGS__), (status))
+/* The same at a place, a struct that has file, line and column. */
+#define message_at(list, severity, place, ...)                                                                                   \
+    message_add((list), (severity), (place).file, (place).line, (place).column, __VA_ARGS__)
+#define message_refuse_at(list, status, place, ...) (message_at((list), SEVERITY_ERROR, (place), __VA_ARGS__), (status))
 /* The texts of the warnings (pool) and how many there are; NULL where memory is out. */
 const char **message_warnings(const struct message_list *list, struct pool *pool, int *count);
 /* The errors with their places, "; " between them; "" of none. */

@@ -21,9 +21,8 @@ static int judge_condensed(struct command *command, const struct job *job, const
     for (int i = 0; i < c->count && alone; i++)
         if (export_master_id(model, i) > DMIG_MOST_ID) {
             struct place place = job_sensor_place(job, i);
-            return message_refuse(&command->messages, 1, place.file, place.line, place.column,
-                                  "sensor %d cannot be the id of a GRID, expected at most %d", export_master_id(model, i),
-                                  DMIG_MOST_ID);
+            return message_refuse_at(&command->messages, 1, place, "sensor %d cannot be the id of a GRID, expected at most %d",
+                                     export_master_id(model, i), DMIG_MOST_ID);
         }
     for (int j = 0; j < s->count && (!highest || j < highest) && worst < 0; j++)
         if (!(fabs(s->reduction_error_percent[j]) <= REDUCTION_DOUBTFUL))

@@ -19,8 +19,7 @@ int deck_say(struct deck_reader *reader, enum severity severity, struct place pl
     for (int i = 0; i < reader->text.ntable; i++)
         if (place.file == reader->text.table[i]->path)
             name = table_cell_name(place.line, place.column, cell);
-    message_add(reader->messages, severity, place.file, place.line, place.column, "%s%s%s%s", text, name ? " (cell " : "",
-                name ? name : "", name ? ")" : "");
+    message_at(reader->messages, severity, place, "%s%s%s%s", text, name ? " (cell " : "", name ? name : "", name ? ")" : "");
     return 1;
 }
 

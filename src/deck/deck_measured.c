@@ -699,7 +699,7 @@ void deck_measured(struct deck_reader *reader, const struct card *card)
         if (status == ROTID_ERROR_IO && m->severity == SEVERITY_ERROR)
             deck_error(reader, card_option(card, "FILE")->value_place, "%s %s, expected a universal file", import.path, m->text);
         else
-            message_add(reader->messages, m->severity, m->file, m->line, m->column, "%s", m->text);
+            message_at(reader->messages, m->severity, *m, "%s", m->text);
     }
     if (!status && !import_sensors(&import))
         (void)import_modes(&import);

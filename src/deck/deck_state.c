@@ -180,8 +180,7 @@ static void merge_messages(struct deck_reader *reader, const struct states *stat
             for (int t = 0; t < states->nstate && all; t++)
                 all &= says(&of[t], m);
             if (!all || s == 0)
-                message_add(reader->messages, m->severity, m->file, m->line, m->column, all ? "%s" : "%s (state %s)", m->text,
-                            states->state[s].name);
+                message_at(reader->messages, m->severity, *m, all ? "%s" : "%s (state %s)", m->text, states->state[s].name);
         }
 }
 

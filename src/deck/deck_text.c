@@ -170,9 +170,9 @@ const char *deck_text_path(struct pool *pool, const struct deck_text *text, cons
 {
     const char *here = option->overridden ? NULL : card->place.file;
     if (text->origin.memory && !text->origin.directory) {
-        message_add(messages, SEVERITY_ERROR, option->value_place.file, option->value_place.line, option->value_place.column,
-                    "%s is a file, and a deck from memory has no directory of its own, expected one beside its text",
-                    option->value);
+        message_at(messages, SEVERITY_ERROR, option->value_place,
+                   "%s is a file, and a deck from memory has no directory of its own, expected one beside its text",
+                   option->value);
         return NULL;
     }
     return deck_path_from(pool, option->value, here,

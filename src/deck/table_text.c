@@ -273,11 +273,10 @@ int table_text_read(struct pool *pool, const char *path, struct place from, stru
     if (!text && !failed)
         return ROTID_ERROR_MEMORY;
     if (failed)
-        return message_refuse(messages, text ? ROTID_ERROR_IO : file_status(failed), from.file, from.line, from.column,
-                              "cannot read %s: %s%s", path, file_error_text(failed, why),
-                              text ? "" : ", expected a table as CSV");
+        return message_refuse_at(messages, text ? ROTID_ERROR_IO : file_status(failed), from, "cannot read %s: %s%s", path,
+                                 file_error_text(failed, why), text ? "" : ", expected a table as CSV");
     if (length > TABLE_MOST_BYTES)
-        return message_refuse(messages, ROTID_ERROR_IO, from.file, from.line, from.column,
-                              "%s is larger than 16 MiB, expected a table of measured values or sections", path);
+        return message_refuse_at(messages, ROTID_ERROR_IO, from,
+                                 "%s is larger than 16 MiB, expected a table of measured values or sections", path);
     return table_text_split(pool, path, length, text, messages, table);
 }

@@ -24,8 +24,8 @@ static int begin_as(struct pool *pool, enum discretisation as, struct job *job, 
     job->options.solid = as == AS_SOLID;
     if (status == ROTID_ERROR_SECTION) {
         struct place place = job_part_place(job, failed);
-        message_add(notes, SEVERITY_ERROR, place.file, place.line, place.column, "the rotor cannot be compared as a %s: %s",
-                    as == AS_SOLID ? "solid" : "beam", discrete_refusal(as, &job->rotor, failed));
+        message_at(notes, SEVERITY_ERROR, place, "the rotor cannot be compared as a %s: %s", as == AS_SOLID ? "solid" : "beam",
+                   discrete_refusal(as, &job->rotor, failed));
     }
     return status;
 }

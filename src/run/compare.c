@@ -101,8 +101,8 @@ int comparison_make(struct pool *pool, const struct job *job, const struct spect
             (void)snprintf(counted + strlen(counted), sizeof counted - strlen(counted), "%s%.4g", j ? ", " : "",
                            spectrum->full_hz[j]);
         c->clash = clash - 1;
-        return message_refuse(
-            notes, ROTID_ERROR_UNPAIRED, job->measured.file, job->measured.line, job->measured.column,
+        return message_refuse_at(
+            notes, ROTID_ERROR_UNPAIRED, job->measured,
             "measured mode %d at %.6g Hz is left without a mode of the model: by its shape another one takes its number. "
             "The model at the start has %s Hz: expected modes that differ, numbered as these are (%s), and supports, "
             "moduli and lengths in the units of the deck",

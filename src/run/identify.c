@@ -351,8 +351,7 @@ static int predict_baseline(struct pool *pool, const struct state *state, struct
 static void pass_on(const struct message_list *from, const char *name, struct message_list *notes)
 {
     for (size_t i = 0; i < from->count; i++)
-        message_add(notes, from->item[i].severity, from->item[i].file, from->item[i].line, from->item[i].column,
-                    name ? "%s (state %s)" : "%s", from->item[i].text, name);
+        message_at(notes, from->item[i].severity, from->item[i], name ? "%s (state %s)" : "%s", from->item[i].text, name);
 }
 
 /* A state while it is fitted. */

@@ -114,9 +114,9 @@ int states_refuse_types(const struct states *states, const char *what, struct me
         const struct job *job = &states->state[s].job;
         if (job->options.type == MODE_BENDING)
             continue;
-        return message_refuse(notes, ROTID_ERROR_ARGUMENT, job->measured.file, job->measured.line, job->measured.column,
-                              "%s is of bending, expected no *MODES, TYPE=%s, or another state by --set FIT.STATE=NAME", what,
-                              mode_type_words[job->options.type]);
+        return message_refuse_at(notes, ROTID_ERROR_ARGUMENT, job->measured,
+                                 "%s is of bending, expected no *MODES, TYPE=%s, or another state by --set FIT.STATE=NAME", what,
+                                 mode_type_words[job->options.type]);
     }
     return ROTID_OK;
 }
@@ -222,10 +222,10 @@ void check_sections(const struct job *job, int status, struct message_list *note
     }
     struct place place = job_part_place(job, soft);
     if (most > CONTRAST * least)
-        message_add(notes, SEVERITY_ERROR, place.file, place.line, place.column,
-                    "%s: a section of %s has EI/L^3 = %.2g N/m beside %.2g N/m of an element of %s, expected at most %.0e times "
-                    "as much: lengths and diameters nearer to each other, or fewer elements",
-                    rotid_status_text(status), rotor->group[soft].name, least, most, rotor->group[hard].name, CONTRAST);
+        message_at(notes, SEVERITY_ERROR, place,
+                   "%s: a section of %s has EI/L^3 = %.2g N/m beside %.2g N/m of an element of %s, expected at most %.0e times "
+                   "as much: lengths and diameters nearer to each other, or fewer elements",
+                   rotid_status_text(status), rotor->group[soft].name, least, most, rotor->group[hard].name, CONTRAST);
     else
-        message_add(notes, SEVERITY_ERROR, place.file, place.line, place.column, "%s", rotid_status_text(status));
+        message_at(notes, SEVERITY_ERROR, place, "%s", rotid_status_text(status));
 }

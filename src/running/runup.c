@@ -170,8 +170,8 @@ static void refuse_reading(const struct runup *r, struct message_list *notes)
         const struct runup_reading *reading = &r->machine->runup[i];
         if (isfinite(p->critical[i].speed))
             continue;
-        message_add(
-            notes, SEVERITY_ERROR, reading->place.file, reading->place.line, reading->place.column,
+        message_at(
+            notes, SEVERITY_ERROR, reading->place,
             "the model has %d critical speeds with %s whirl up to %.0f rpm, expected number %d of *RUNUP to be one of them",
             search_count(s, reading->backward), reading->backward ? "backward" : "forward", s->speed[s->count - 1] / RPM,
             reading->number);

@@ -21,12 +21,12 @@
 static int refuse_system(const struct search *s, int status, int failed, struct message_list *notes)
 {
     if (status == ROTID_ERROR_STIFFNESS)
-        message_add(notes, SEVERITY_ERROR, s->machine->place.file, s->machine->place.line, s->machine->place.column,
-                    "the bearings do not hold the rotor, expected two *BEARING with stiffness, or more");
+        message_at(notes, SEVERITY_ERROR, s->machine->place,
+                   "the bearings do not hold the rotor, expected two *BEARING with stiffness, or more");
     if (status == ROTID_ERROR_SECTION) {
         struct place place = job_part_place(s->job, failed);
-        message_add(notes, SEVERITY_ERROR, place.file, place.line, place.column, "%s",
-                    discrete_refusal(s->job->options.solid ? AS_SOLID : AS_BEAM, &s->job->rotor, failed));
+        message_at(notes, SEVERITY_ERROR, place, "%s",
+                   discrete_refusal(s->job->options.solid ? AS_SOLID : AS_BEAM, &s->job->rotor, failed));
     }
     return status;
 }
@@ -73,15 +73,14 @@ static int build(struct pool *pool, struct search *s, double highest, struct mes
         if (status)
             return refuse_system(s, status, failed, notes);
         if (!is_held(pool, &s->system, s->machine->npull))
-            return message_refuse(
-                notes, ROTID_ERROR_STIFFNESS, s->machine->place.file, s->machine->place.line, s->machine->place.column,
+            return message_refuse_at(
+                notes, ROTID_ERROR_STIFFNESS, s->machine->place,
                 "the magnetic pull is stronger than the bearings, which draws the rotor to the stator: expected a *PULL "
                 "below their stiffness");
         if (!is_resolved(&s->system, highest))
-            return message_refuse(notes, ROTID_ERROR_STIFFNESS, s->machine->place.file, s->machine->place.line,
-                                  s->machine->place.column,
-                                  "bearings or losses damp so much that no digits of the frequencies are left: expected the "
-                                  "stiffness of what holds the rotor in place of its damping");
+            return message_refuse_at(notes, ROTID_ERROR_STIFFNESS, s->machine->place,
+                                     "bearings or losses damp so much that no digits of the frequencies are left: expected the "
+                                     "stiffness of what holds the rotor in place of its damping");
         if (s->system.highest >= REACH * highest || s->basis.modes >= s->system.n || s->basis.modes >= MODES_MOST)
             return ROTID_OK;
     }
@@ -197,9 +196,8 @@ int search_until(struct pool *pool, double least, int forward, int backward, str
     double third = status ? 0 : BEYOND * cimag(all[count > 6 ? 5 : count - 1].lambda) / s->harmonic, to = fmax(least, third);
     double most = third * (FARTHEST + fmax(forward * forward, backward * backward));
     if (!status && least > most) /* it takes minutes */
-        status = message_refuse(notes, ROTID_ERROR_ARGUMENT, s->machine->runup->place.file, s->machine->runup->place.line,
-                                s->machine->runup->place.column,
-                                "speeds up to %.6g rpm, expected at most %.3g rpm for this machine", least / RPM, most / RPM);
+        status = message_refuse_at(notes, ROTID_ERROR_ARGUMENT, s->machine->runup->place,
+                                   "speeds up to %.6g rpm, expected at most %.3g rpm for this machine", least / RPM, most / RPM);
     for (int attempt = 0; attempt < ATTEMPTS && !status; attempt++, to *= FARTHER) {
         status = search_within(pool, to, notes, s);
         if (!status && search_count(s, 0) >= forward && search_count(s, 1) >= backward)

@@ -133,9 +133,9 @@ static int hide(const struct plan_item *hidden, struct job *lower, const struct 
     take_values(upper, truth, truth->upper);
     for (int p = 0; truth_parameter(truth, p); p++)
         if (truth->upper[p] < truth->lower[p])
-            return message_refuse(messages, ROTID_ERROR_SYNTAX, hidden->place.file, hidden->place.line, hidden->place.column,
-                                  "%s lies between %.6g and %.6g, expected the lower one first", truth_parameter(truth, p)->name,
-                                  truth->lower[p], truth->upper[p]);
+            return message_refuse_at(messages, ROTID_ERROR_SYNTAX, hidden->place,
+                                     "%s lies between %.6g and %.6g, expected the lower one first",
+                                     truth_parameter(truth, p)->name, truth->lower[p], truth->upper[p]);
     return ROTID_OK;
 }
 
@@ -208,7 +208,7 @@ static int keep(struct jobs *jobs, struct kept_jobs *kept, const struct study_ce
     }
     for (size_t i = 0; i < kept->messages.count && kept->status; i++) {
         const rotid_message *m = &kept->messages.item[i];
-        message_add(messages, (enum severity)m->severity, m->file, m->line, m->column, "%s", m->text);
+        message_at(messages, (enum severity)m->severity, *m, "%s", m->text);
     }
     return kept->status;
 }

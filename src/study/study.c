@@ -111,7 +111,7 @@ static void report(struct checker *c, struct place place, const char *format, ..
         if (equal_texts(m->file, place.file) && m->line == place.line && m->column == place.column && !strcmp(m->text, text))
             return;
     }
-    message_add(c->messages, SEVERITY_ERROR, place.file, place.line, place.column, "%s", text);
+    message_at(c->messages, SEVERITY_ERROR, place, "%s", text);
 }
 
 /* The errors of a list from number i on, one behind the other; NULL behind the last. */
@@ -155,7 +155,7 @@ static int give_up(struct checker *c, int d, const struct message_list *found)
     const char *error = "the deck cannot be read";
     const rotid_message *m;
     for (size_t i = 0, count = 0; (m = next_error(found, &i)); count++) {
-        message_add(c->messages, SEVERITY_WARNING, m->file, m->line, m->column, "%s", m->text);
+        message_at(c->messages, SEVERITY_WARNING, *m, "%s", m->text);
         const char *more = found->errors > 1 ? pool_format(c->pool, " (and %d more errors)", found->errors - 1) : "";
         if (!count)
             error = pool_format(c->pool, "%s:%d:%d: %s%s", m->file ? m->file : "", m->line, m->column, m->text, more ? more : "");
