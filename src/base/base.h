@@ -12,7 +12,8 @@
  *   messages         message.c   message_add: note, warning or error with file, line and column, kept until somebody prints it
  *   threads          parallel.c  parallel_for: tasks 0 ... count - 1; the status returned is independent of the number of threads
  *   random numbers   order.c     splitmix64; uniform in (0, 1), normal by random_normal; the state is the caller's
- *   order            order.c     sorting of doubles and ints, rank and median of doubles
+ *   order            order.c     sorting of doubles and ints, rank, median and largest of doubles
+ *   progress         parallel.c  environment_cancelled, environment_progress: what a long call asks and tells its host
  *   text             text.c      comparison without case, edit distance, UTF-8, control characters
  *   other            parallel.c: the clock; version.c
  *
@@ -108,6 +109,9 @@ int pool_add(struct pool *pool, void **list, int *count, size_t size, const void
 /* A list of the `count` elements of `list` and `more` of zeros behind them; of NULL zeros alone. NULL where memory is out. */
 void *pool_copy(struct pool *pool, const void *list, size_t count, size_t more, size_t size);
 #define POOL_COPY(pool, list, count, more) pool_copy((pool), (list), (size_t)(count), (size_t)(more), sizeof *(list))
+
+/* Values that are not known yet, NaN. NULL where memory is out. */
+double *pool_unknown(struct pool *pool, size_t count);
 
 char *pool_copy_text(struct pool *pool, const char *text);
 char *pool_format(struct pool *pool, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -235,6 +239,11 @@ double double_of_rank(size_t count, size_t rank, double *value);
 /* Their median, behind which x is sorted; NaN of none. */
 double median_of(size_t count, double *x);
 
+/* The largest magnitude of those that are finite, 0 of none. */
+double largest_magnitude(ptrdiff_t count, const double *x);
+
+int all_finite(ptrdiff_t count, const double *x);
+
 /* -------------------------------------------------------------------------------------------------------------- parallel */
 
 /* Independent tasks on several threads. */
@@ -248,6 +257,10 @@ double median_of(size_t count, double *x);
  * had. A task returns 0, or else a status after which no task is started; those under way end. Returns 0, or the status, negative
  * or positive, of the lowest index that did not return 0: all below it have run, so it is the same for any number of threads. */
 int parallel_for(int threads, int count, int (*task)(void *context, int index, int worker), void *context);
+
+/* Whether the host wants a long call to end, and what it is told of one; environment may be NULL, and so may its members. */
+int environment_cancelled(const rotid_environment *environment);
+void environment_progress(const rotid_environment *environment, const char *stage, int step);
 
 /* ---------------------------------------------------------------------------------------------------------------- random */
 

@@ -49,6 +49,23 @@ double median_of(size_t count, double *x)
     return count ? (x[(count - 1) / 2] + x[count / 2]) / 2 : NAN;
 }
 
+double largest_magnitude(ptrdiff_t count, const double *x)
+{
+    double largest = 0;
+    for (ptrdiff_t i = 0; i < count; i++)
+        if (isfinite(x[i]))
+            largest = fmax(largest, fabs(x[i]));
+    return largest;
+}
+
+int all_finite(ptrdiff_t count, const double *x)
+{
+    for (ptrdiff_t i = 0; i < count; i++)
+        if (!isfinite(x[i]))
+            return 0;
+    return 1;
+}
+
 double random_uniform(struct random_stream *stream)
 {
     uint64_t z = (stream->state += 0x9E3779B97F4A7C15u);

@@ -74,3 +74,14 @@ int parallel_for(int threads, int count, int (*task)(void *context, int index, i
             lowest = t;
     return worker[lowest].status;
 }
+
+int environment_cancelled(const rotid_environment *environment)
+{
+    return environment && environment->cancelled && environment->cancelled(environment->context);
+}
+
+void environment_progress(const rotid_environment *environment, const char *stage, int step)
+{
+    if (environment && environment->progress)
+        environment->progress(environment->context, stage, step);
+}

@@ -1,5 +1,6 @@
 #include "base/base.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -125,6 +126,14 @@ void *pool_copy(struct pool *pool, const void *list, size_t count, size_t more, 
     if (copy && list && count)
         memcpy(copy, list, count * size);
     return copy;
+}
+
+double *pool_unknown(struct pool *pool, size_t count)
+{
+    double *value = POOL_ARRAY(pool, double, count);
+    for (size_t i = 0; i < count && value; i++)
+        value[i] = NAN;
+    return value;
 }
 
 char *pool_copy_text(struct pool *pool, const char *text)

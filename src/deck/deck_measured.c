@@ -71,23 +71,14 @@ void deck_sort_sensors(struct deck_reader *reader)
         }
 }
 
-/* Values that are not known, NaN; NULL where memory is out. */
-static double *deck_new_values(struct deck_reader *reader, size_t count)
-{
-    double *value = POOL_ARRAY(reader->pool, double, count);
-    for (size_t i = 0; i < count && value; i++)
-        value[i] = NAN;
-    return value;
-}
-
 /* Room for modes without shapes. 0, or 1 where memory is out. */
 static int new_modes(struct deck_reader *reader, int count)
 {
     struct job_measurement *m = &reader->job->measurement;
     m->number = POOL_ARRAY(reader->pool, int, count);
     m->frequency_hz = POOL_ARRAY(reader->pool, double, count);
-    m->damping = deck_new_values(reader, (size_t)count);
-    m->frequency_std = deck_new_values(reader, (size_t)count);
+    m->damping = pool_unknown(reader->pool, (size_t)count);
+    m->frequency_std = pool_unknown(reader->pool, (size_t)count);
     return reader->pool->out_of_memory;
 }
 
@@ -141,8 +132,8 @@ static int deck_new_points(struct deck_reader *reader)
     struct job_measurement *m = &reader->job->measurement;
     if (m->point_frequency_hz)
         return 0;
-    double *hz = deck_new_values(reader, components(reader->job));
-    m->point_frequency_std = deck_new_values(reader, components(reader->job));
+    double *hz = pool_unknown(reader->pool, components(reader->job));
+    m->point_frequency_std = pool_unknown(reader->pool, components(reader->job));
     reader->mean_kept = POOL_ARRAY(reader->pool, int, m->nmode);
     m->point_frequency_hz = reader->pool->out_of_memory ? NULL : hz;
     return reader->pool->out_of_memory;
@@ -207,8 +198,8 @@ void deck_shape(struct deck_reader *reader, const struct card *card)
     if (mode < 0)
         return;
     if (!m->shape) {
-        m->shape_std = deck_new_values(reader, components(reader->job));
-        m->shape = m->shape_std ? deck_new_values(reader, components(reader->job)) : NULL;
+        m->shape_std = pool_unknown(reader->pool, components(reader->job));
+        m->shape = m->shape_std ? pool_unknown(reader->pool, components(reader->job)) : NULL;
     }
     if (m->shape && !read_at_sensors(reader, card, mode, m->shape, m->shape_std) && card->nline)
         deck_error(reader, card->place, "the shape of mode %s is zero everywhere, expected at least one component that is not",
@@ -442,10 +433,8 @@ static void read_values(const struct extra *extra)
     double *target = first + (of_shape   ? m->shape_std
                               : of_point ? m->point_frequency_hz
                                          : m->point_frequency_std),
-           *shape = m->shape + first, largest = 0, offset = of_point ? read_offset(extra) : 0;
-    for (int s = 0; s < job->rotor.nsensor; s++)
-        if (isfinite(shape[s]))
-            largest = fmax(largest, fabs(shape[s]));
+           *shape = m->shape + first, largest = largest_magnitude(job->rotor.nsensor, shape),
+           offset = of_point ? read_offset(extra) : 0;
     for (int i = 0; i < set->node_count; i++) {
         int sensor = sensor_find(job, set->node[i]);
         double value = set->real[i * set->component_count + extra->component];
@@ -653,8 +642,8 @@ static int import_modes(struct import *import)
     int count = chosen ? choose_modes(import, chosen) : 0, bad = 0;
     if (chosen && !count)
         return deck_error(reader, in_file(import, 1), "the file has no mode shapes, expected sets 55 of normal or complex modes");
-    m->shape = deck_new_values(reader, (size_t)nsensor * (size_t)count);
-    m->shape_std = deck_new_values(reader, (size_t)nsensor * (size_t)count);
+    m->shape = pool_unknown(reader->pool, (size_t)nsensor * (size_t)count);
+    m->shape_std = pool_unknown(reader->pool, (size_t)nsensor * (size_t)count);
     if (new_modes(reader, import->file.shape_count)) /* room for the numbers of those that are left out */
         return 1;
     uff_mode_numbers(&import->file, count, chosen, m->number);

@@ -112,9 +112,7 @@ static void loaded_shapes_allow(struct job *job, const struct weighing *w, doubl
     for (int m = 0; m < w->nmode && job_fits_shapes(job); m++) {
         int k = w->columns.mode[m].k;
         const double *phi = w->phi + (ptrdiff_t)m * w->npoint;
-        double largest = 0;
-        for (int s = 0; s < w->npoint; s++)
-            largest = fmax(largest, fabs(phi[s]));
+        double largest = largest_magnitude(w->npoint, phi);
         for (int s = 0; s < w->npoint && largest > 0; s++) {
             ptrdiff_t at = s + (ptrdiff_t)k * w->npoint, model = s + (ptrdiff_t)m * w->npoint;
             if (isfinite(job->measurement.shape[at]))

@@ -221,14 +221,6 @@ static double dot(int n, const double *a, const double *b) /* over what both hav
     return sum;
 }
 
-static double largest(int n, const double *a)
-{
-    double most = 0;
-    for (int i = 0; i < n; i++)
-        most = isfinite(a[i]) ? fmax(most, fabs(a[i])) : most;
-    return most;
-}
-
 /* b, its noise and phi_b at the sensors of `after`, NaN where `before` has none of that id at that place. */
 static void gather(const struct job *before, const struct identification *found, int j, const struct rotor *after, double *b,
                    double *std, double *phi)
@@ -236,7 +228,7 @@ static void gather(const struct job *before, const struct identification *found,
     const struct spectrum *spectrum = &found->spectrum;
     int nsensor = before->rotor.nsensor;
     ptrdiff_t measured = (ptrdiff_t)j * nsensor, mode = (ptrdiff_t)(found->compared.number[j] - 1) * spectrum->nmaster;
-    double absolute = largest(nsensor, before->measurement.shape + measured);
+    double absolute = largest_magnitude(nsensor, before->measurement.shape + measured);
     for (int i = 0; i < after->nsensor; i++) {
         b[i] = NAN;
         for (int s = 0; s < nsensor; s++) {
@@ -269,7 +261,7 @@ static void correct_shape(const struct job *before, const struct identification 
 {
     int n = job->rotor.nsensor;
     double *a = job->measurement.shape + (ptrdiff_t)k * n, *std = job->measurement.shape_std + (ptrdiff_t)k * n, *b = work,
-           *b_std = b + n, *phi = b_std + n, was = largest(n, a);
+           *b_std = b + n, *phi = b_std + n, was = largest_magnitude(n, a);
     gather(before, found, j, &job->rotor, b, b_std, phi);
     for (int i = 0; i < n; i++)
         if (!isfinite(a[i]) || !isfinite(b[i])) /* not measured twice */
@@ -291,7 +283,7 @@ static void correct_shape(const struct job *before, const struct identification 
         std[i] = hypot(hypot(std[i] * was, g * b_std[i]), *other > 0 && isfinite(missed) ? sqrt(*other) * missed : 0);
         a[i] -= missed;
     }
-    double is = largest(n, a);
+    double is = largest_magnitude(n, a);
     for (int i = 0; i < n; i++)
         std[i] /= is;
 }

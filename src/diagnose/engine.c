@@ -69,8 +69,6 @@ void engine_step(struct engine *engine, const char *name)
 
 int engine_stage(const struct engine *engine, const char *stage, int step)
 {
-    const rotid_environment *e = engine->environment;
-    if (e && e->progress)
-        e->progress(e->context, stage, step);
-    return e && e->cancelled && e->cancelled(e->context) ? ROTID_STOP_CANCELLED : ROTID_OK;
+    environment_progress(engine->environment, stage, step);
+    return environment_cancelled(engine->environment) ? ROTID_STOP_CANCELLED : ROTID_OK;
 }

@@ -158,12 +158,10 @@ int modes_in_turn(const struct engine *engine, const struct states *states, cons
                   double *shape)
 {
     int nmode = states_modes(&engine->states, engine->states.nstate);
-    struct leave_out out = {engine, states, fit, POOL_ARRAY(engine->pool, double, nmode),
-                            POOL_ARRAY(engine->pool, double, nmode)};
+    struct leave_out out = {engine, states, fit, pool_unknown(engine->pool, (size_t)nmode),
+                            pool_unknown(engine->pool, (size_t)nmode)};
     if (!out.error || !out.shape)
         return ROTID_ERROR_MEMORY;
-    for (int k = 0; k < nmode; k++)
-        out.error[k] = out.shape[k] = NAN;
     int status = parallel_for(engine->threads, nmode, leave_out_task, &out);
     *error = status ? (double)NAN : rms(nmode, out.error);
     *shape = status ? (double)NAN : rms(nmode, out.shape);

@@ -267,8 +267,7 @@ static int offer_single(struct fault_list *list, int s)
     for (int i = 0; i < own.count; i++)
         reading[i] = d->measured[own.row[i]];
     for (int i = c->first; i < c->first + c->nblock; i++)
-        for (int j = 0; j < d->block[i].count; j++)
-            rms = fmax(rms, fabs(d->measured[d->block[i].row + j]));
+        rms = fmax(rms, largest_magnitude(d->block[i].count, d->measured + d->block[i].row));
     double outside = log_scatter(own.count, reading, 1, fmax(2, rms));
     if (!status)
         status = offer(list, "duplicate_channel", s, -1, NULL, NULL, outside, without + outside);

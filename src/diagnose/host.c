@@ -247,7 +247,7 @@ static int search(struct host *h)
         h->set[next].expanded = 1;
         for (int c = 0; c < h->ncause && h->set[next].is.ncause < MOST_MEMBERS && !status; c++) {
             rotid_host_explanation more = with_cause(&h->set[next].is, c);
-            if (h->environment->cancelled && h->environment->cancelled(h->environment->context))
+            if (environment_cancelled(h->environment))
                 return ROTID_STOP_CANCELLED;
             if (!has(&h->set[next].is, c) && !is_known(h, &more))
                 status = enter(h, more, h->set[next].evidence.mean, 0);

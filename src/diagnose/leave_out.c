@@ -151,7 +151,7 @@ int mode_out_fit(const struct states *states, const rotid_fit_result *from, cons
     }
     if (!status && !(left && (any_shapes(states) || left >= states->nparameter)))
         status = ROTID_ERROR_ARGUMENT;
-    if (!status && environment && environment->cancelled && environment->cancelled(environment->context))
+    if (!status && environment_cancelled(environment))
         status = ROTID_STOP_CANCELLED;
     if (!status && from)
         status = mode_out_step(&pool, states, from, number, holdout, k, error_percent, shape, &follows);
@@ -176,9 +176,7 @@ static int scale_directions(const struct job *job, const int *holdout, const rot
     for (int k = 0; k < job->measurement.nmode && job_fits_shapes(job); k++) {
         const double *shape = job->measurement.shape + (ptrdiff_t)k * nsensor,
                      *std = job->measurement.shape_std + (ptrdiff_t)k * nsensor;
-        double *q = basis + (ptrdiff_t)count * fit->nresidual, largest = 0, square = 0;
-        for (int s = 0; s < nsensor; s++)
-            largest = isfinite(shape[s]) ? fmax(largest, fabs(shape[s])) : largest;
+        double *q = basis + (ptrdiff_t)count * fit->nresidual, largest = largest_magnitude(nsensor, shape), square = 0;
         for (int s = 0; s < nsensor && !holdout[k]; s++) {
             if (!isfinite(shape[s]))
                 continue;

@@ -720,16 +720,10 @@ static int finish(struct extraction *job)
 
 ORDER_BY(by_frequency_of_mode, struct ema_mode, it->frequency_hz, 0)
 
-static int is_cancelled(const struct extraction *job)
-{
-    const rotid_environment *e = job->environment;
-    return e && e->cancelled && e->cancelled(e->context);
-}
-
 static int extract(struct extraction *job, struct stabilisation *table)
 {
     int status = find_candidates(job, table);
-    if (status == ROTID_OK && is_cancelled(job))
+    if (status == ROTID_OK && environment_cancelled(job->environment))
         status = ROTID_STOP_CANCELLED;
     if (status == ROTID_OK)
         status = earn(job);
@@ -762,7 +756,7 @@ int ema_compute(struct pool *pool, const struct frf_set *set, const struct ema_o
         job.options = *options;
     *out = (struct ema){0};
     int status = prepare(&job);
-    if (status == ROTID_OK && is_cancelled(&job))
+    if (status == ROTID_OK && environment_cancelled(environment))
         status = ROTID_STOP_CANCELLED;
     if (status == ROTID_OK && job.options.method == EMA_QUADRATURE)
         status = picking_compute(pool, &job.band, &job.options, set->window_decay, out);

@@ -259,13 +259,10 @@ void shapes_of_mode(const struct frf_set *set, const struct ema_points *points, 
 #define MOST_MPD       20 /* degrees */
 #define WEAK_THRESHOLD 3  /* standard deviations of the strongest residue */
 
-/* NaN; of complex numbers two each. NULL where memory is out, as the pool says. */
-static void *unknown(struct pool *pool, size_t count)
+/* NaN of complex numbers; NULL where memory is out, as the pool says. */
+static void *unknown_complex(struct pool *pool, size_t count)
 {
-    double *array = POOL_ARRAY(pool, double, count);
-    for (size_t i = 0; i < count && array; i++)
-        array[i] = NAN;
-    return array;
+    return pool_unknown(pool, 2 * count);
 }
 
 int modes_new(struct pool *pool, int nmode, int per_point, struct ema *out)
@@ -273,21 +270,21 @@ int modes_new(struct pool *pool, int nmode, int per_point, struct ema *out)
     size_t nfrf = (size_t)out->nfrf, npoint = (size_t)out->npoint;
     out->nmode = nmode;
     out->mode = POOL_ARRAY(pool, struct ema_mode, nmode);
-    out->lower = unknown(pool, 2 * nfrf);
-    out->upper = unknown(pool, 2 * nfrf);
+    out->lower = unknown_complex(pool, nfrf);
+    out->upper = unknown_complex(pool, nfrf);
     for (int r = 0; r < nmode && out->mode; r++)
         out->mode[r] = (struct ema_mode){.frequency_std = NAN,
                                          .damping_std = NAN,
                                          .modal_mass = NAN,
                                          .peak_signal_to_noise = NAN,
                                          .nearest_hz = NAN,
-                                         .residue = unknown(pool, 2 * nfrf),
-                                         .residue_std = unknown(pool, nfrf),
-                                         .shape = unknown(pool, npoint),
-                                         .shape_std = unknown(pool, npoint),
-                                         .complex_shape = unknown(pool, 2 * npoint),
-                                         .point_frequency_hz = per_point ? unknown(pool, npoint) : NULL,
-                                         .point_frequency_std = per_point ? unknown(pool, npoint) : NULL};
+                                         .residue = unknown_complex(pool, nfrf),
+                                         .residue_std = pool_unknown(pool, nfrf),
+                                         .shape = pool_unknown(pool, npoint),
+                                         .shape_std = pool_unknown(pool, npoint),
+                                         .complex_shape = unknown_complex(pool, npoint),
+                                         .point_frequency_hz = per_point ? pool_unknown(pool, npoint) : NULL,
+                                         .point_frequency_std = per_point ? pool_unknown(pool, npoint) : NULL};
     return pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 

@@ -531,10 +531,9 @@ int per_point_frequencies(struct pool *pool, const struct ema_band *band, double
         for (int r = 0; r < out->nmode; r++) {
             if (!suspect[r] && !out->mode[r].point_frequency_hz)
                 continue;
-            if (environment && environment->cancelled && environment->cancelled(environment->context))
+            if (environment_cancelled(environment))
                 return ROTID_STOP_CANCELLED;
-            if (environment && environment->progress)
-                environment->progress(environment->context, "frequency of each point", r);
+            environment_progress(environment, "frequency of each point", r);
             int status = one_mode(&w, informed, r);
             if (status != ROTID_OK)
                 return status;

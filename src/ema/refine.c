@@ -180,10 +180,9 @@ static int descend(struct modal_fit *fit, int most, const rotid_environment *env
         guarded |= fit->loose[r];
     refinement->converged = 0;
     for (int i = 0; i < most; i++) {
-        if (environment && environment->cancelled && environment->cancelled(environment->context))
+        if (environment_cancelled(environment))
             return ROTID_STOP_CANCELLED;
-        if (environment && environment->progress)
-            environment->progress(environment->context, "refine poles", refinement->iterations);
+        environment_progress(environment, "refine poles", refinement->iterations);
         if (fresh)
             sum_channels(fit, information, score);
         double size = limited_step(fit, information, score, mu, refinement->moved, factor, scale, delta);

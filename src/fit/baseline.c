@@ -78,15 +78,13 @@ static double objective(unsigned n, const double *scaled, double *gradient, void
 {
     struct problem *problem = user;
     struct joint *joint = problem->joint;
-    const rotid_environment *environment = problem->environment;
-    if (environment && environment->cancelled && environment->cancelled(environment->context)) {
+    if (environment_cancelled(problem->environment)) {
         problem->cancelled = 1;
         (void)nlopt_force_stop(problem->optimiser);
         return HUGE_VAL; /* no point of this run is looked at again */
     }
     problem->evaluations++;
-    if (environment && environment->progress)
-        environment->progress(environment->context, problem->stage, problem->evaluations);
+    environment_progress(problem->environment, problem->stage, problem->evaluations);
     for (unsigned p = 0; p < n; p++)
         problem->x[p] = scaled[p] * fabs(problem->parameter[p].start);
     for (unsigned p = 0; gradient && p < n; p++)

@@ -26,19 +26,9 @@ size_t rotid_check_jacobian_workspace(int m, int n)
     return m < 1 || n < 1 ? 0 : columns + rows * columns + (3 + 2 * STEPS) * rows;
 }
 
-static int all_finite(ptrdiff_t n, const double *x)
-{
-    for (ptrdiff_t i = 0; i < n; i++)
-        if (!isfinite(x[i]))
-            return 0;
-    return 1;
-}
-
 static double length(int m, const double *a)
 {
-    double largest = 0, sum = 0;
-    for (int i = 0; i < m; i++)
-        largest = fmax(largest, fabs(a[i]));
+    double largest = largest_magnitude(m, a), sum = 0;
     for (int i = 0; i < m && largest > 0; i++)
         sum += a[i] / largest * (a[i] / largest);
     return largest * sqrt(sum);

@@ -229,9 +229,8 @@ static void compare_modes(struct functional *f, int first, rotid_fit_result *res
 static int trace_near(void *user, const rotid_lm_iteration *now)
 {
     struct fit *fit = user;
-    const rotid_environment *environment = fit->environment;
     fit->accepted = now->x;
-    return environment && environment->cancelled && environment->cancelled(environment->context);
+    return environment_cancelled(fit->environment);
 }
 
 /* Everything that is known of an accepted point while the functional stands there: the host is not asked for it again, as it may
@@ -291,10 +290,8 @@ static int trace(void *user, const rotid_lm_iteration *now)
                                                  .step = sqrt(step),
                                                  .seconds = clock_seconds() - fit->begin};
     result->nhistory++;
-    const rotid_environment *environment = fit->environment;
-    if (environment && environment->progress)
-        environment->progress(environment->context, "Levenberg-Marquardt, iteration", fit->before + now->iteration);
-    return environment && environment->cancelled && environment->cancelled(environment->context);
+    environment_progress(fit->environment, "Levenberg-Marquardt, iteration", fit->before + now->iteration);
+    return environment_cancelled(fit->environment);
 }
 
 static int new_result(struct pool *keep, const struct joint *joint, int history_rows, rotid_fit_result *result)

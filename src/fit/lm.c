@@ -52,21 +52,11 @@ size_t rotid_lm_workspace(int m, int n)
     return m < 1 || n < 1 ? 0 : 7 * (size_t)n + 2 * (size_t)m + (size_t)m * (size_t)n + least_squares_workspace(m, n);
 }
 
-static int all_finite(ptrdiff_t n, const double *x)
-{
-    for (ptrdiff_t i = 0; i < n; i++)
-        if (!isfinite(x[i]))
-            return 0;
-    return 1;
-}
-
 /* unit, r in units and half its square, behind a change of r; the radius goes along. */
 static void measure(struct lm *lm)
 {
-    double largest = 0, before = lm->unit, sum = 0;
+    double largest = largest_magnitude(lm->m, lm->r), before = lm->unit, sum = 0;
     int exponent;
-    for (int i = 0; i < lm->m; i++)
-        largest = fmax(largest, fabs(lm->r[i]));
     (void)frexp(largest, &exponent);
     if (largest > 0)
         lm->unit = ldexp(1, -(exponent > EXPONENT ? EXPONENT : exponent < -EXPONENT ? -EXPONENT : exponent));

@@ -55,9 +55,7 @@ static int say_not_finite(const char *name, const rotid_matrix *a, char *failure
 
 int matrix_check_block(const char *name, const rotid_matrix *a, char *failure)
 {
-    double largest = 0;
-    for (ptrdiff_t i = 0; i < (ptrdiff_t)a->nfar * a->nfar; i++)
-        largest = fmax(largest, fabs(a->block[i]));
+    double largest = largest_magnitude((ptrdiff_t)a->nfar * a->nfar, a->block);
     for (int g = 0; g < a->nfar; g++)
         for (int f = g + 1; f < a->nfar; f++) {
             double low = a->block[f + (ptrdiff_t)g * a->nfar], high = a->block[g + (ptrdiff_t)f * a->nfar];

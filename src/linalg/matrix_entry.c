@@ -88,32 +88,23 @@ static int check(int count, const rotid_matrix *const *a, int nmaster, const int
     return indices_check("master", nmaster, master, a[0]->n, failure);
 }
 
-/* Entries near the ends of the doubles leave none behind. */
-static int are_numbers(size_t count, const double *a)
-{
-    for (size_t i = 0; i < count; i++)
-        if (!isfinite(a[i]))
-            return 0;
-    return 1;
-}
-
 static int condense(struct pool *pool, const rotid_matrix *k, const rotid_matrix *m, int nmaster, const int *master, int kind,
                     double *kc, double *mc, double *t)
 {
     struct reduction r;
-    size_t square = (size_t)nmaster * (size_t)nmaster;
+    ptrdiff_t square = (ptrdiff_t)nmaster * nmaster;
     int status = reduction_new(pool, kind, k, nmaster, master, &r);
     if (!status)
         status = reduction_compute(&r, k, m);
     if (status)
         return status;
-    memcpy(kc, r.kc, square * sizeof *kc);
-    memcpy(mc, r.mc, square * sizeof *mc);
+    memcpy(kc, r.kc, (size_t)square * sizeof *kc);
+    memcpy(mc, r.mc, (size_t)square * sizeof *mc);
     if (t)
         memcpy(t, r.t, (size_t)k->n * (size_t)nmaster * sizeof *t);
-    return are_numbers(square, kc) && are_numbers(square, mc) && are_numbers((size_t)k->n * (size_t)nmaster, r.t)
-               ? ROTID_OK
-               : ROTID_ERROR_FINITE;
+    /* entries near the ends of the doubles leave no numbers behind */
+    int finite = all_finite(square, kc) && all_finite(square, mc) && all_finite((ptrdiff_t)k->n * nmaster, r.t);
+    return finite ? ROTID_OK : ROTID_ERROR_FINITE;
 }
 
 int rotid_condense(const rotid_matrix *k, const rotid_matrix *m, int nmaster, const int *master, int kind,
@@ -158,8 +149,8 @@ static int differentiate(struct pool *pool, const rotid_matrix *const *a, int nm
         symmetrise(nmaster, dkc);
         symmetrise(nmaster, dmc);
     }
-    size_t square = (size_t)nmaster * (size_t)nmaster;
-    return !status && !(are_numbers(square, dkc) && are_numbers(square, dmc)) ? ROTID_ERROR_FINITE : status;
+    ptrdiff_t square = (ptrdiff_t)nmaster * nmaster;
+    return !status && !(all_finite(square, dkc) && all_finite(square, dmc)) ? ROTID_ERROR_FINITE : status;
 }
 
 int rotid_condense_derivative(const rotid_matrix *k, const rotid_matrix *m, const rotid_matrix *dk, const rotid_matrix *dm,

@@ -9,12 +9,8 @@
  * a shape, and squares of 1e200 and 1e-200 have no double. */
 static double unit_of(int n, const double *a)
 {
-    double largest = 0;
     int exponent;
-    for (int i = 0; i < n; i++)
-        if (isfinite(a[i]))
-            largest = fmax(largest, fabs(a[i]));
-    (void)frexp(largest, &exponent);
+    (void)frexp(largest_magnitude(n, a), &exponent);
     return ldexp(1, exponent > 1000 ? -1000 : exponent < -1000 ? 1000 : -exponent);
 }
 

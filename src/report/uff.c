@@ -149,11 +149,9 @@ static int component_of(const struct universal *u, const struct uff_shape *shape
 /* The standard deviations of a mode, relative to its largest value. */
 static void take_std(struct universal *u, const struct uff_shape *set, int component, int k)
 {
-    double hz, largest = 0, *std = u->std + (ptrdiff_t)k * u->nnode;
+    double hz, largest = largest_magnitude(u->nnode, u->value + (ptrdiff_t)k * u->nnode), *std = u->std + (ptrdiff_t)k * u->nnode;
     if (!uff_extra_frequency_std(set, &hz) && hz > 0)
         u->frequency_std[k] = hz;
-    for (int n = 0; n < u->nnode; n++)
-        largest = fmax(largest, fabs(u->value[n + (ptrdiff_t)k * u->nnode]));
     for (int m = 0; m < set->node_count; m++) {
         const struct uff_node *at = node_of(u, set->node[m]);
         double deviation = set->real[m * set->component_count + component];
@@ -178,12 +176,10 @@ static void take_extra(struct universal *u, const struct uff_shape *set)
 static int take_shapes(struct pool *pool, struct universal *u, const struct uff_file *file)
 {
     size_t count = (size_t)u->count * (size_t)u->nnode;
-    u->value = POOL_ARRAY(pool, double, count);
-    u->std = POOL_ARRAY(pool, double, count);
+    u->value = pool_unknown(pool, count);
+    u->std = pool_unknown(pool, count);
     if (!u->value || !u->std)
         return ROTID_ERROR_MEMORY;
-    for (size_t i = 0; i < count; i++)
-        u->value[i] = u->std[i] = NAN;
     for (int k = 0; k < u->count; k++) {
         double *value = POOL_ARRAY(pool, double, u->mode[k]->node_count);
         int c = component_of(u, u->mode[k]);
@@ -208,7 +204,7 @@ static int read_universal(struct pool *pool, const char *path, struct message_li
         return status;
     u->mode = POOL_ARRAY(pool, const struct uff_shape *, file.shape_count);
     u->number = POOL_ARRAY(pool, int, file.shape_count);
-    u->frequency_std = POOL_ARRAY(pool, double, file.shape_count);
+    u->frequency_std = pool_unknown(pool, (size_t)file.shape_count);
     if (!u->mode || !u->number || !u->frequency_std)
         return ROTID_ERROR_MEMORY;
     u->count = uff_choose_modes(&file, u->mode, &rigid, &conjugates);
@@ -216,8 +212,6 @@ static int read_universal(struct pool *pool, const char *path, struct message_li
         return message_refuse(messages, ROTID_ERROR_SYNTAX, path, 1, 1,
                               "the file has no mode shapes, expected sets 55 of normal or complex modes for --csv");
     uff_mode_numbers(&file, u->count, u->mode, u->number);
-    for (int k = 0; k < u->count; k++)
-        u->frequency_std[k] = NAN;
     u->direction = largest_direction(u, path, messages);
     status = take_nodes(pool, &file, u);
     return status ? status : take_shapes(pool, u, &file);

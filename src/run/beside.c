@@ -68,11 +68,9 @@ static int measure(struct pool *pool, const struct spectrum *s, int count, const
     out->frequency_std = POOL_ARRAY(pool, double, count);
     out->holdout = POOL_ARRAY(pool, int, count);
     out->shape = POOL_ARRAY(pool, double, (size_t)count *(size_t)s->nmaster);
-    out->shape_std = POOL_ARRAY(pool, double, (size_t)count *(size_t)s->nmaster);
+    out->shape_std = pool_unknown(pool, (size_t)count * (size_t)s->nmaster); /* the shapes pair and are not fitted */
     if (!out->number || !out->frequency_hz || !out->frequency_std || !out->holdout || !out->shape || !out->shape_std)
         return ROTID_ERROR_MEMORY;
-    for (ptrdiff_t i = 0; i < (ptrdiff_t)count * s->nmaster; i++)
-        out->shape_std[i] = NAN; /* the shapes pair and are not fitted */
     for (int k = 0; k < count; k++) {
         int j = number ? number[k] - 1 : k;
         out->number[k] = j + 1;

@@ -520,16 +520,6 @@ static int nearest_line(const struct frf_result *out, double hz)
     return hz - out->frequency_hz[low] < out->frequency_hz[high] - hz ? low : high;
 }
 
-static double lowest(const struct frf_band *band)
-{
-    return isfinite(band->measured_hz) ? fmin(band->measured_hz, band->model_hz) : band->model_hz;
-}
-
-static double highest(const struct frf_band *band)
-{
-    return isfinite(band->measured_hz) ? fmax(band->measured_hz, band->model_hz) : band->model_hz;
-}
-
 /* Borders half-way between the resonances of neighbours, so that both peaks of a mode whose frequency is off by percent lie
  * within its lines. */
 static int frf_make_bands(struct pool *pool, const struct job *job, const struct comparison *compared, struct frf_result *out)
@@ -547,7 +537,7 @@ static int frf_make_bands(struct pool *pool, const struct job *job, const struct
                 band.measured = k;
                 band.measured_hz = job->measurement.frequency_hz[k];
             }
-        if (highest(&band) < from || lowest(&band) > to)
+        if (fmax(band.measured_hz, band.model_hz) < from || fmin(band.measured_hz, band.model_hz) > to) /* without NaN */
             continue;
         band.at_model = nearest_line(out, band.model_hz);
         band.at_measured = isfinite(band.measured_hz) ? nearest_line(out, band.measured_hz) : band.at_model;
@@ -555,7 +545,8 @@ static int frf_make_bands(struct pool *pool, const struct job *job, const struct
     }
     for (int b = 0; b < out->nband; b++) {
         struct frf_band *band = &out->band[b];
-        double next = b + 1 < out->nband ? (highest(band) + lowest(band + 1)) / 2 : INFINITY;
+        double highest = fmax(band->measured_hz, band->model_hz),
+               next = b + 1 < out->nband ? (highest + fmin(band[1].measured_hz, band[1].model_hz)) / 2 : INFINITY;
         band->first = b ? out->band[b - 1].last + 1 : 0;
         band->last = out->nline - 1;
         while (band->last >= band->first && out->frequency_hz[band->last] > next)
@@ -660,7 +651,7 @@ static int compare_rows(struct pool *pool, const struct frf_measured *measured, 
     int status = out->at && h && moved && work ? ROTID_OK : ROTID_ERROR_MEMORY;
     for (int first = 0; first < out->nrow && !status; first += SYNTHESIS_TOGETHER) {
         int count = out->nrow - first < SYNTHESIS_TOGETHER ? out->nrow - first : SYNTHESIS_TOGETHER;
-        if (environment && environment->cancelled && environment->cancelled(environment->context))
+        if (environment_cancelled(environment))
             break;
         synthesis_evaluate(&out->synthesis, &lines, out->synthesis.lambda, out->zeta, first, count, h, work);
         synthesis_evaluate(&out->synthesis, &lines, out->moved_lambda, out->zeta, first, count, moved, work);
@@ -670,8 +661,7 @@ static int compare_rows(struct pool *pool, const struct frf_measured *measured, 
             compare_row(out, first + c, work, h + at, moved + at);
         }
         out->ndone += count;
-        if (environment && environment->progress)
-            environment->progress(environment->context, "transfer function", out->ndone);
+        environment_progress(environment, "transfer function", out->ndone);
     }
     pool_close(&scratch);
     return status;

@@ -312,8 +312,7 @@ int identify_numbers(struct pool *pool, const struct states *states, const struc
 /* Also while NLopt ran: the fit itself is complete then. */
 static int is_cancelled(const rotid_fit_result *fit, const rotid_environment *environment)
 {
-    return fit->status == ROTID_STOP_CANCELLED ||
-           (environment && environment->cancelled && environment->cancelled(environment->context));
+    return fit->status == ROTID_STOP_CANCELLED || environment_cancelled(environment);
 }
 
 /* What the model that was fitted predicts at the points of the baseline. */

@@ -387,10 +387,9 @@ static int one_draw(void *context, int index, int worker)
     struct pool pool;
     int status = ROTID_OK, done = 0;
     const rotid_environment *host = worker ? NULL : b->environment; /* which is asked by one thread alone */
-    if (host && host->cancelled && host->cancelled(host->context))
+    if (environment_cancelled(host))
         return ROTID_STOP_CANCELLED;
-    if (host && host->progress)
-        host->progress(host->context, "draw", index);
+    environment_progress(host, "draw", index);
     for (int steps = 1; steps <= 4 && !done && !status; steps *= 4) {
         struct machine_values values;
         struct system system[2];

@@ -68,11 +68,8 @@ int fft_open(struct pool *pool, int n, struct fft *fft)
 void fft_real(struct fft *fft, const double *x, double complex *X)
 {
     const kiss_fft_cpx *line = fft->line;
-    double largest = 0;
     int exponent = 0;
-    for (int j = 0; j < fft->n; j++)
-        largest = fmax(largest, fabs(x[j]));
-    (void)frexp(largest, &exponent);
+    (void)frexp(largest_magnitude(fft->n, x), &exponent);
     /* in two steps: the scale of the smallest numbers is itself too large for a double */
     double half = ldexp(1, -exponent / 2), other = ldexp(1, -exponent + exponent / 2);
     for (int j = 0; j < fft->n; j++)

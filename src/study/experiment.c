@@ -122,10 +122,8 @@ static void experiment_noise(const struct study *study, const struct study_point
         m->frequency_std[k] = stated(from_model, m->frequency_std[k], noise->frequency);
     }
     for (int k = 0; k < m->nmode && m->shape && noise->shape > 0; k++) {
-        double *shape = m->shape + (ptrdiff_t)k * nsensor, *std = m->shape_std + (ptrdiff_t)k * nsensor, largest = 0,
-               level = noise->shape * factor(truth, "SHAPE");
-        for (int i = 0; i < nsensor; i++)
-            largest = isfinite(shape[i]) ? fmax(largest, fabs(shape[i])) : largest;
+        double *shape = m->shape + (ptrdiff_t)k * nsensor, *std = m->shape_std + (ptrdiff_t)k * nsensor,
+               largest = largest_magnitude(nsensor, shape), level = noise->shape * factor(truth, "SHAPE");
         for (int i = 0; i < nsensor; i++) {
             if (!isfinite(shape[i]))
                 continue;
@@ -361,13 +359,11 @@ static int solve_moving(struct pool *pool, struct models *models, const struct r
 static void take_mode(const struct job *source, const struct modes *modes, int k, struct job *job)
 {
     const double *made = modes->shape + (ptrdiff_t)(job->measurement.number[k] - 1) * modes->nsensor;
-    double largest = 0, sign = 1;
+    double largest = largest_magnitude(modes->nsensor, made), sign = 1;
     job->measurement.frequency_hz[k] = modes->hz[job->measurement.number[k] - 1];
     if (!job->measurement.shape)
         return;
     double *shape = job->measurement.shape + (ptrdiff_t)k * job->rotor.nsensor;
-    for (int s = 0; s < modes->nsensor; s++)
-        largest = fmax(largest, fabs(made[s]));
     for (int s = modes->nsensor - 1; s >= 0; s--) /* no solver states a sign: that of the first sensor that moves by half of it */
         if (fabs(made[s]) >= largest / 2)
             sign = made[s] < 0 ? -1 : 1;
@@ -442,12 +438,8 @@ static int add_shapes(struct pool *pool, const struct plan_item *noise, struct j
     if (job->measurement.shape || !job->rotor.nsensor || isnan(noise->shape))
         return ROTID_OK;
     job->measurement.shape = POOL_ARRAY(pool, double, components); /* zeros: measured, and to be filled in */
-    job->measurement.shape_std = POOL_ARRAY(pool, double, components);
-    if (!job->measurement.shape || !job->measurement.shape_std)
-        return ROTID_ERROR_MEMORY;
-    for (size_t i = 0; i < components; i++)
-        job->measurement.shape_std[i] = NAN;
-    return ROTID_OK;
+    job->measurement.shape_std = pool_unknown(pool, components);
+    return job->measurement.shape && job->measurement.shape_std ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
 /* States, unknowns and data of this run alone. */

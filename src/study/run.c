@@ -305,7 +305,7 @@ static int compute(struct work *w, struct jobs *jobs, long number)
     int status = experiment_make(&w->pool, jobs, &point, &w->notes, &w->experiment);
     if (!status)
         status = w->study->plan->command == PLAN_DIAGNOSE ? diagnose(w) : identify(w);
-    if (w->environment && w->environment->cancelled && w->environment->cancelled(w->environment->context))
+    if (environment_cancelled(w->environment))
         return ROTID_STOP_CANCELLED; /* what came behind the last look at it may be incomplete */
     if (!status)
         w->run.warnings = message_warnings(&w->notes, &w->pool, &w->run.nwarnings);

@@ -189,10 +189,8 @@ struct judging {
 
 static int stage(const struct judging *j, const char *what, int step)
 {
-    const rotid_environment *e = j->environment;
-    if (e && e->progress)
-        e->progress(e->context, what, step);
-    return e && e->cancelled && e->cancelled(e->context) ? ROTID_STOP_CANCELLED : ROTID_OK;
+    environment_progress(j->environment, what, step);
+    return environment_cancelled(j->environment) ? ROTID_STOP_CANCELLED : ROTID_OK;
 }
 
 /* What is measured so far, once more. */

@@ -39,10 +39,7 @@ static void divide_by_largest(struct job *job, int with_std)
     int n = job->rotor.nsensor;
     for (int k = 0; k < job->measurement.nmode && job->measurement.shape; k++) {
         double *shape = job->measurement.shape + (ptrdiff_t)k * n, *std = job->measurement.shape_std + (ptrdiff_t)k * n,
-               largest = 0;
-        for (int s = 0; s < n; s++)
-            if (isfinite(shape[s]))
-                largest = fmax(largest, fabs(shape[s]));
+               largest = largest_magnitude(n, shape);
         for (int s = 0; s < n && largest > 0; s++) {
             shape[s] /= largest;
             if (with_std)
