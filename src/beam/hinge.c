@@ -23,7 +23,7 @@ int hinge_place(struct pool *pool, struct beam *beam)
     const struct rotor *rotor = &beam->rotor;
     int joints = 0;
     for (int i = 0; i < rotor->neffect; i++)
-        joints += rotor->effect[i].kind->joint != NULL;
+        joints += rotor->effect[i].kind->joint;
     beam->nhinge = 0;
     beam->hinge = NULL;
     if (!joints)
@@ -100,9 +100,7 @@ void hinge_apply(double c, double dc, int end, double *k, double *m, double *dk,
 
 static double flexibility(const struct beam *beam, const struct hinge *hinge, int p)
 {
-    const struct effect *effect = &beam->rotor.effect[hinge->effect];
-    double value = 0;
-    return effect->kind->joint(effect, &beam->rotor, p, &value) ? value : 0;
+    return p < 0 ? beam->rotor.effect[hinge->effect].value[0] : 1;
 }
 
 void hinge_condense(const struct beam *beam, int e, double *k, double *m)

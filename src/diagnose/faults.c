@@ -461,7 +461,7 @@ int fault_columns(struct pool *pool, const struct states *states, const int *num
             break;
         }
         (*count)++;
-        fault->cause->bounds(&job->rotor, &fault->effect, p, &to->lower, &to->upper);
+        cause_range(fault->cause, &job->rotor, &fault->effect, p, &to->lower, &to->upper);
         memset(to->column, 0, (size_t)d->nrow * sizeof *to->column);
         for (int b = 0; b < c.nblock; b++) {
             const struct evidence_block *block = &d->block[c.first + b];

@@ -226,11 +226,7 @@ static int next_set(const struct host *h)
     return best >= 0 && h->set[best].log_posterior > h->set[lead].log_posterior - WITHIN ? best : -1;
 }
 
-static int by_posterior(const void *a, const void *b)
-{
-    double one = ((const struct host_set *)a)->log_posterior, two = ((const struct host_set *)b)->log_posterior;
-    return (one < two) - (one > two);
-}
+ORDER_BY(by_posterior, struct host_set, -it->log_posterior, 0)
 
 static int search(struct host *h)
 {

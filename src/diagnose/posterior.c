@@ -367,11 +367,7 @@ static int summarise(struct engine *engine, struct posterior *p)
     return ROTID_OK;
 }
 
-static int by_posterior(const void *a, const void *b)
-{
-    double one = ((const struct explanation *)a)->log_posterior, two = ((const struct explanation *)b)->log_posterior;
-    return (one < two) - (one > two);
-}
+ORDER_BY(by_posterior, struct explanation, -it->log_posterior, 0)
 
 void posterior_sort(struct posterior *p)
 {

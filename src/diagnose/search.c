@@ -105,14 +105,7 @@ static int is_asked(const struct proposal *p)
 }
 
 /* Those that can be fitted before the others. */
-static int by_gain(const void *a, const void *b)
-{
-    const struct proposal *one = a, *two = b;
-    if (is_inseparable(one) != is_inseparable(two))
-        return is_inseparable(one) - is_inseparable(two);
-    double first = one->set.log_posterior, second = two->set.log_posterior;
-    return (first < second) - (first > second);
-}
+ORDER_BY(by_gain, struct proposal, is_inseparable(it), -it->set.log_posterior)
 
 /* Whether a cause in one state alone is the same in all: no other state in which it could act has modes that are fitted. */
 static int is_common(const struct engine *engine, const struct scan *scan, int index)

@@ -46,9 +46,11 @@ static struct effect_bundle on_tierod(const struct rotor *rotor, int tierod, int
     struct effect_bundle product = {1, 1, 0}, one;
     for (int i = 0; i < rotor->neffect; i++) {
         const struct effect *effect = &rotor->effect[i];
-        if (i != except && effect->kind->tierod && effect->kind->tierod(effect, rotor, tierod, -1, &one))
-            product =
-                (struct effect_bundle){product.young * one.young, product.tension * one.tension, product.as_rods || one.as_rods};
+        if (i == except || !effect->kind->tierod || effect->target != tierod)
+            continue;
+        effect->kind->tierod(effect, -1, &one);
+        product =
+            (struct effect_bundle){product.young * one.young, product.tension * one.tension, product.as_rods || one.as_rods};
     }
     return product;
 }
@@ -61,26 +63,28 @@ struct effect_bundle effects_on_tierod(const struct rotor *rotor, int tierod)
 int effects_tierod_derivative(const struct rotor *rotor, struct parameter parameter, int tierod, struct effect_bundle *d)
 {
     const struct effect *effect = &rotor->effect[parameter.index];
-    if (!effect->kind->tierod || !effect->kind->tierod(effect, rotor, tierod, parameter.component, d))
+    if (!effect->kind->tierod || effect->target != tierod)
         return 0;
+    effect->kind->tierod(effect, parameter.component, d);
     struct effect_bundle others = on_tierod(rotor, tierod, parameter.index);
     *d = (struct effect_bundle){d->young * others.young, d->tension * others.tension, 0};
     return 1;
 }
 
-/* Where a spring has no such hook, nothing is changed. */
-static int on_spring(const struct effect *effect, const struct rotor *rotor, int spring, int p, struct effect_spring *change)
+static int is_on_spring(const struct effect *effect, int spring)
 {
-    return effect->kind->spring && effect->kind->spring(effect, rotor, spring, p, change);
+    return effect->kind->spring && effect->target == spring;
 }
 
 static struct effect_spring change_of(const struct rotor *rotor, int spring, int except)
 {
     struct effect_spring sum = {.factor = 1}, one;
     for (int i = 0; i < rotor->neffect; i++)
-        if (i != except && on_spring(&rotor->effect[i], rotor, spring, -1, &one))
+        if (i != except && is_on_spring(&rotor->effect[i], spring)) {
+            rotor->effect[i].kind->spring(&rotor->effect[i], -1, &one);
             sum = (struct effect_spring){sum.factor * one.factor, sum.lateral + one.lateral, sum.rotational + one.rotational,
                                          sum.shift + one.shift};
+        }
     return sum;
 }
 
@@ -111,8 +115,10 @@ int effects_spring_derivative(const struct rotor *rotor, struct parameter parame
     struct effect_spring change = change_of(rotor, spring, -1), rate = {.factor = 0};
     double lateral = 0, rotational = 0; /* of what the compliance is in series with */
     if (parameter.kind == PARAMETER_EFFECT) {
-        if (!on_spring(&rotor->effect[parameter.index], rotor, spring, parameter.component, &rate))
+        const struct effect *effect = &rotor->effect[parameter.index];
+        if (!is_on_spring(effect, spring))
             return 0;
+        effect->kind->spring(effect, parameter.component, &rate);
         rate.factor *= change_of(rotor, spring, parameter.index).factor;
         lateral = rate.factor * own->lateral;
         rotational = rate.factor * own->rotational;
@@ -132,9 +138,8 @@ int effects_spring_derivative(const struct rotor *rotor, struct parameter parame
 
 int effects_move_spring(const struct rotor *rotor, int spring)
 {
-    struct effect_spring change;
     for (int i = 0; i < rotor->neffect; i++)
-        if (rotor->effect[i].kind->moves_springs && on_spring(&rotor->effect[i], rotor, spring, -1, &change))
+        if (rotor->effect[i].kind->moves_springs && is_on_spring(&rotor->effect[i], spring))
             return 1;
     return 0;
 }

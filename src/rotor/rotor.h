@@ -230,13 +230,13 @@ struct effect_kind {
                  struct effect_field *field);
     int (*section)(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
                    struct effect_section *section);
-    int (*tierod)(const struct effect *effect, const struct rotor *rotor, int tierod, int p, struct effect_bundle *bundle);
-    int (*spring)(const struct effect *effect, const struct rotor *rotor, int spring, int p, struct effect_spring *change);
+    /* of the tie rods, or the spring, that are its target */
+    void (*tierod)(const struct effect *effect, int p, struct effect_bundle *bundle);
+    void (*spring)(const struct effect *effect, int p, struct effect_spring *change);
     int moves_springs; /* the hook above may give a shift, which is 0 at neutral */
     /* the i-th lumped mass or spring to the ground; with p < 0 a 0 says that there is no i-th one */
     int (*point)(const struct effect *effect, const struct rotor *rotor, int i, int p, struct effect_point *point);
-    /* rotational spring in series at the end of group `target` [rad/(N.m)]; massless */
-    int (*joint)(const struct effect *effect, const struct rotor *rotor, int p, double *flexibility);
+    int joint; /* nonzero: a massless rotational spring in series at the end of group `target`, its parameter [rad/(N.m)] */
     /* how many of the parameters this effect uses, which may depend on its variant; NULL: all of them */
     int (*count)(const struct effect *effect);
 };

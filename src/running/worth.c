@@ -172,11 +172,7 @@ static int add_tests(struct worth *w)
     return status;
 }
 
-static int by_std(const void *a, const void *b)
-{
-    double x = ((const rotid_speed_test *)a)->std_rpm, y = ((const rotid_speed_test *)b)->std_rpm;
-    return isnan(x) ? !isnan(y) : isnan(y) ? -1 : (x > y) - (x < y);
-}
+ORDER_BY(by_std, rotid_speed_test, isnan(it->std_rpm) != 0, it->std_rpm)
 
 static const char *conclude(struct pool *pool, const rotid_suggestion *s, const char *what)
 {

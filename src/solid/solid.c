@@ -164,11 +164,11 @@ static double inertia_over_length(const struct solid *solid, int slice)
 /* c I/t, or its derivative with respect to a parameter of an effect */
 static double joint_compliance(const struct solid *solid, int slice, int effect, int p)
 {
-    double sum = 0, flexibility;
+    double sum = 0;
     for (int i = 0; i < solid->rotor.neffect; i++) {
         const struct effect *e = &solid->rotor.effect[i];
-        if ((effect < 0 || effect == i) && joint_in(solid, e, slice) && e->kind->joint(e, &solid->rotor, p, &flexibility))
-            sum += flexibility;
+        if ((effect < 0 || effect == i) && joint_in(solid, e, slice))
+            sum += p < 0 ? e->value[0] : 1;
     }
     return sum == 0 ? 0 : sum * inertia_over_length(solid, slice);
 }

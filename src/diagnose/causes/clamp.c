@@ -8,15 +8,11 @@ enum { ROTATIONAL, LATERAL };
 
 static const double most = 0.125;
 
-static int on_spring(const struct effect *effect, const struct rotor *rotor, int spring, int p, struct effect_spring *change)
+static void on_spring(const struct effect *effect, int p, struct effect_spring *change)
 {
-    (void)rotor;
-    if (spring != effect->target)
-        return 0;
     *change = (struct effect_spring){.factor = p < 0,
                                      .lateral = p < 0 ? effect->value[LATERAL] : p == LATERAL,
                                      .rotational = p < 0 ? effect->value[ROTATIONAL] : p == ROTATIONAL};
-    return 1;
 }
 
 static void bounds(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper)

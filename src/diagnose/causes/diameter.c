@@ -3,6 +3,8 @@
  *   A' / A = (s^2 D^2 - d^2)/(D^2 - d^2),   I' / I = (s^4 D^4 - d^4)/(D^4 - d^4)
  *
  * E by the latter, G and rho by the former: exact in EI and rho A; the shear coefficient and the rotary inertia follow A. */
+#include <math.h>
+
 #include "diagnose/causes/causes.h"
 
 /* (s^n - q)/(1 - q), q = (d/D)^n, or its derivative. */
@@ -30,10 +32,8 @@ static void bounds(const struct rotor *rotor, const struct effect *effect, int p
     (void)p;
     for (int s = 0; s < rotor->nsegment; s++)
         if (rotor->segment[s].group == effect->target && !rotor->segment[s].rectangular)
-            thickest = rotor->segment[s].inner / rotor->segment[s].outer > thickest
-                           ? rotor->segment[s].inner / rotor->segment[s].outer
-                           : thickest;
-    *lower = (1 + thickest) / 2 > 0.8 ? (1 + thickest) / 2 : 0.8;
+            thickest = fmax(thickest, rotor->segment[s].inner / rotor->segment[s].outer);
+    *lower = fmax((1 + thickest) / 2, 0.8);
     *upper = 1.25;
 }
 

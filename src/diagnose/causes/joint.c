@@ -4,13 +4,6 @@
 
 #include "diagnose/causes/causes.h"
 
-static int joint(const struct effect *effect, const struct rotor *rotor, int p, double *flexibility)
-{
-    (void)rotor;
-    *flexibility = p < 0 ? effect->value[0] : 1;
-    return 1;
-}
-
 /* last segment of the group, or -1 where nothing follows it */
 static int segment_before(const struct rotor *rotor, int group)
 {
@@ -44,8 +37,7 @@ static int applies(const struct rotor *rotor, int target, const int *identified)
     return segment_before(rotor, target) >= 0;
 }
 
-static const struct effect_kind kind = {
-    .id = "joint", .nparameter = 1, .parameter = {{"flexibility", "rad/(N.m)"}}, .joint = joint};
+static const struct effect_kind kind = {.id = "joint", .nparameter = 1, .parameter = {{"flexibility", "rad/(N.m)"}}, .joint = 1};
 
 const struct cause_kind cause_joint = {
     .id = "joint",

@@ -18,13 +18,6 @@ static int correct(struct pool *pool, struct job *job, const struct correction *
     return ROTID_OK;
 }
 
-static void bounds(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper)
-{
-    (void)rotor, (void)effect, (void)p;
-    *lower = 1e-3;
-    *upper = 1e3;
-}
-
 const struct cause_kind cause_noise_level = {
     .id = "noise_level",
     .class = CAUSE_DATA,
@@ -32,7 +25,8 @@ const struct cause_kind cause_noise_level = {
     .parameter = {{.neutral = 1, .typical = 2}},
     .place = -1,
     .width = -1,
-    .bounds = bounds,
+    .lower = 1e-3,
+    .upper = 1e3,
     .value = {"factor", "1"},
     .correct = correct,
     .sentence = "noise that is stated too small or too large",

@@ -13,14 +13,6 @@ static int correct(struct pool *pool, struct job *job, const struct correction *
     return ROTID_OK;
 }
 
-/* beyond this the channel is dead or overloaded, not miscalibrated */
-static void bounds(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper)
-{
-    (void)rotor, (void)effect, (void)p;
-    *lower = 0.01;
-    *upper = 100;
-}
-
 const struct cause_kind cause_sensor_gain = {
     .id = "sensor_gain",
     .class = CAUSE_DATA,
@@ -30,7 +22,8 @@ const struct cause_kind cause_sensor_gain = {
                    PRIOR_LOGNORMAL(0.5)}}, /* sensitivities are mistaken by some tens of percent, or by a factor */
     .place = -1,
     .width = -1,
-    .bounds = bounds,
+    .lower = 0.01, /* beyond these the channel is dead or overloaded, not miscalibrated */
+    .upper = 100,
     .value = {"gain", "1"},
     .correct = correct,
     .sentence = "a channel with a wrong gain",

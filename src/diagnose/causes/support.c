@@ -1,13 +1,9 @@
 /* A spring that is stiffer or softer than stated. */
 #include "diagnose/causes/causes.h"
 
-static int on_spring(const struct effect *effect, const struct rotor *rotor, int spring, int p, struct effect_spring *change)
+static void on_spring(const struct effect *effect, int p, struct effect_spring *change)
 {
-    (void)rotor;
-    if (spring != effect->target)
-        return 0;
     *change = (struct effect_spring){.factor = p < 0 ? effect->value[0] : 1};
-    return 1;
 }
 
 static const struct effect_kind kind = {.id = "support", .nparameter = 1, .parameter = {{"factor", "1"}}, .spring = on_spring};

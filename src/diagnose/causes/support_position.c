@@ -4,13 +4,9 @@
 
 #include "diagnose/causes/causes.h"
 
-static int on_spring(const struct effect *effect, const struct rotor *rotor, int spring, int p, struct effect_spring *change)
+static void on_spring(const struct effect *effect, int p, struct effect_spring *change)
 {
-    (void)rotor;
-    if (spring != effect->target)
-        return 0;
     *change = (struct effect_spring){.factor = p < 0, .shift = p < 0 ? effect->value[0] : 1};
-    return 1;
 }
 
 static void bounds(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper)

@@ -2,13 +2,10 @@
  * bundle. There is nothing to identify. */
 #include "diagnose/causes/causes.h"
 
-static int on_tierod(const struct effect *effect, const struct rotor *rotor, int tierod, int p, struct effect_bundle *bundle)
+static void on_tierod(const struct effect *effect, int p, struct effect_bundle *bundle)
 {
-    (void)rotor;
-    if (tierod != effect->target || p >= 0)
-        return 0;
+    (void)effect, (void)p;
     *bundle = (struct effect_bundle){.young = 1, .tension = 1, .as_rods = 1};
-    return 1;
 }
 
 static int applies(const struct rotor *rotor, int target, const int *identified)

@@ -1,13 +1,9 @@
 /* E of the tie rods, and their G with it: threads and washers make them softer than the steel they are of. */
 #include "diagnose/causes/causes.h"
 
-static int on_tierod(const struct effect *effect, const struct rotor *rotor, int tierod, int p, struct effect_bundle *bundle)
+static void on_tierod(const struct effect *effect, int p, struct effect_bundle *bundle)
 {
-    (void)rotor;
-    if (tierod != effect->target)
-        return 0;
     *bundle = (struct effect_bundle){.young = p < 0 ? effect->value[0] : 1, .tension = p < 0};
-    return 1;
 }
 
 static const struct effect_kind kind = {

@@ -1,13 +1,9 @@
 /* The tension of the tie rods. */
 #include "diagnose/causes/causes.h"
 
-static int on_tierod(const struct effect *effect, const struct rotor *rotor, int tierod, int p, struct effect_bundle *bundle)
+static void on_tierod(const struct effect *effect, int p, struct effect_bundle *bundle)
 {
-    (void)rotor;
-    if (tierod != effect->target)
-        return 0;
     *bundle = (struct effect_bundle){.young = p < 0, .tension = p < 0 ? effect->value[0] : 1};
-    return 1;
 }
 
 static int applies(const struct rotor *rotor, int target, const int *identified)
