@@ -84,8 +84,8 @@ int machine_refuse(const struct states *states, struct message_list *notes);
  * on both. Without messages and the extended deck. The result of `d`; where memory is out the pool says so. */
 rotid_diagnosis *result_diagnosis(struct pool *pool, const struct states *deck, struct diagnosis *d);
 
-/* A candidate at its best values; where memory is out the pool says so. */
-rotid_cause result_cause(struct pool *pool, const struct candidate *candidate);
+/* Candidates at their best values, as *list; how many. Where memory is out the pool says so. */
+int result_causes(struct pool *pool, int count, const struct candidate *candidate, rotid_cause **list);
 
 /* A model as it is drawn and meshed: of the beam, with the values of the parameters and the end springs that it has; of the rotor
  * as it stands, without nodes, where beam is NULL. It leans on both. NULL where memory is out. */

@@ -4,7 +4,7 @@
 
 #define SHARED 0.99 /* probability of the explanations that are listed */
 
-rotid_cause result_cause(struct pool *pool, const struct candidate *c)
+static rotid_cause cause_of(struct pool *pool, const struct candidate *c)
 {
     const struct effect_parameter_name *parameter;
     rotid_cause out = {
@@ -20,19 +20,19 @@ rotid_cause result_cause(struct pool *pool, const struct candidate *c)
     return out;
 }
 
-static int fill_causes(struct pool *pool, int count, const struct candidate *candidate, rotid_cause **list)
+int result_causes(struct pool *pool, int count, const struct candidate *candidate, rotid_cause **list)
 {
     int room = POOL_LIST(pool, *list, count);
     for (int i = 0; i < room; i++)
-        (*list)[i] = result_cause(pool, &candidate[i]);
+        (*list)[i] = cause_of(pool, &candidate[i]);
     return room;
 }
 
 static void fill_verdict(struct pool *pool, const struct diagnosis *d, rotid_verdict *out)
 {
-    out->ncauses = fill_causes(pool, d->ncause, d->cause, &out->causes);
-    out->nlikely_causes = fill_causes(pool, d->nlikely, d->cause + d->ncause, &out->likely_causes);
-    out->nalternative_causes = fill_causes(pool, d->nalternative, d->alternative, &out->alternative_causes);
+    out->ncauses = result_causes(pool, d->ncause, d->cause, &out->causes);
+    out->nlikely_causes = result_causes(pool, d->nlikely, d->cause + d->ncause, &out->likely_causes);
+    out->nalternative_causes = result_causes(pool, d->nalternative, d->alternative, &out->alternative_causes);
     out->nalternatives = POOL_LIST(pool, out->alternatives, d->nalternative);
     out->nalternative_sets = POOL_LIST(pool, out->alternative_sets, d->nalternative);
     for (int i = 0; i < out->nalternatives && i < out->nalternative_sets; i++) {
@@ -55,7 +55,7 @@ static void fill_explanations(struct pool *pool, const struct diagnosis *d, roti
         *o = (rotid_explanation){.something_else = e->something_else,
                                  .probability = e->probability,
                                  .at_rest = p->has_runup ? e->at_rest : (double)NAN};
-        o->ncauses = fill_causes(pool, e->nmember, e->member, &o->causes);
+        o->ncauses = result_causes(pool, e->nmember, e->member, &o->causes);
         int nown = POOL_LIST(pool, o->identified, p->nown);
         for (int q = 0; q < nown; q++) {
             double x = e->evidence.mean[q], half = 1.96 * e->evidence.std[q];
@@ -94,7 +94,7 @@ static void fill_rounds(struct pool *pool, const struct diagnosis *d, rotid_diag
         for (int k = 0; k < round->ncandidate; k++) {
             rotid_candidate *candidate = &out->candidates[out->ncandidates++];
             *candidate = round->candidate[k].result;
-            candidate->cause = result_cause(pool, &round->candidate[k]);
+            candidate->cause = cause_of(pool, &round->candidate[k]);
         }
     }
 }

@@ -53,8 +53,6 @@ int machine_fit_all(struct call *call, const struct states *states, rotid_fit_re
 {
     struct pool *pool = &call->entry.scratch;
     struct identification *found = POOL_ARRAY(pool, struct identification, states->nstate);
-    struct states joined;
-    struct runup *runup = NULL;
     if (!states->nparameter && !states->machine->nunknown)
         return ROTID_OK;
     if (!states_modes(states, states->nstate)) {
@@ -62,11 +60,7 @@ int machine_fit_all(struct call *call, const struct states *states, rotid_fit_re
                      "no mode was measured: the model is taken as the deck states it, not at identified parameters");
         return ROTID_OK;
     }
-    int status = found ? runup_join(pool, states, &call->notes, &joined, &runup) : ROTID_ERROR_MEMORY;
-    if (!status)
-        status = identify_states(pool, &joined, 0, &call->environment, &call->notes, found, fit);
-    int lost = runup_close(runup);
-    return status ? status : lost;
+    return found ? runup_identify(pool, states, &call->environment, &call->notes, found, fit) : ROTID_ERROR_MEMORY;
 }
 
 static int compute(struct call *call, const struct states *states, const rotid_fit_result *fit,

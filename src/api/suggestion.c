@@ -44,9 +44,7 @@ static rotid_suggestion *make_result(struct call *call, struct suggestion *s)
     made->geometry = result_geometry(pool, &s->job.rotor, s->spectrum.model);
     for (int i = 0; i < made->nrivals; i++) {
         const struct rival *rival = &s->rivals.rival[i];
-        made->rivals[i].ncauses = POOL_LIST(pool, made->rivals[i].causes, rival->ncause);
-        for (int c = 0; c < made->rivals[i].ncauses; c++)
-            made->rivals[i].causes[c] = result_cause(pool, &rival->cause[c]);
+        made->rivals[i].ncauses = result_causes(pool, rival->ncause, rival->cause, &made->rivals[i].causes);
     }
     for (int i = 0; i < made->ntests; i++) {
         char *cards = NULL;

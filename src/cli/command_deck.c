@@ -97,12 +97,7 @@ static int chosen_state(struct command *command)
 static int fit_all(struct command *command, const struct states *states, struct identification *found, struct command_fit *fit)
 {
     const rotid_environment environment = command_environment(command);
-    struct states joined;
-    struct runup *runup;
-    int status = runup_join(&command->pool, states, &command->messages, &joined, &runup);
-    if (!status)
-        status = identify_states(&command->pool, &joined, 0, &environment, &command->messages, found, &fit->fit);
-    status = runup_close(runup) ? ROTID_ERROR_MEMORY : status;
+    int status = runup_identify(&command->pool, states, &environment, &command->messages, found, &fit->fit);
     for (int s = 0; s < states->nstate && !status && states->nstate > 1; s++)
         status = identify_own_unknowns(&command->pool, &states->state[s], &found[s]);
     return status;

@@ -155,9 +155,7 @@ static void check_masters(struct deck_reader *reader)
 {
     struct job *job = reader->job;
     struct place place = reader->fit_card ? reader->fit_card->place : reader->text.end;
-    int highest = 0;
-    for (int k = 0; k < job->measurement.nmode; k++)
-        highest = job->measurement.number[k] > highest ? job->measurement.number[k] : highest;
+    int highest = comparison_highest(job);
     if (job->options.fit.reduction != ROTID_REDUCTION_NONE && job->rotor.nsensor && job->rotor.nsensor < 2 * highest)
         deck_error(
             reader, place,

@@ -118,8 +118,8 @@ static double deviation_of(const struct cause_parameter *p, double lower, double
 {
     if (p->prior == PRIOR_GAUSSIAN)
         return p->scale;
-    double below = p->neutral - lower, above = upper - p->neutral, far = p->scale < 0 ? below : fmax(below, above);
-    return fabs(p->scale) * (far > 0 ? far : upper - lower);
+    double below = p->neutral - lower, above = upper - p->neutral, far = fmax(below, above);
+    return p->scale * (far > 0 ? far : upper - lower);
 }
 
 /* Parameter p of a cause at x. */

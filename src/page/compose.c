@@ -423,12 +423,12 @@ static void name_page(struct document *document, int count, const struct result 
 static int several_decks(int count, const struct result *result)
 {
     const char *deck = NULL;
+    int several = 0;
     for (int i = 0; i < count; i++) {
-        if (deck && result[i].head.deck && strcmp(result[i].head.deck, deck) != 0)
-            return 1;
+        several |= deck && result[i].head.deck && strcmp(result[i].head.deck, deck) != 0;
         deck = deck ? deck : result[i].head.deck;
     }
-    return 0;
+    return several;
 }
 
 static void add(struct document *document, page_part *part, const struct result *result)

@@ -128,13 +128,12 @@ void answer_diagnose(struct document *document, const struct result *result)
         add_tiles(document, d);
 }
 
-static void section_why(struct document *document, const rotid_diagnosis *d)
+static void section_said(struct document *document, const char *id, const char *heading, struct reasons said)
 {
-    const struct reasons reasons = reasons_of_diagnosis(document->pool, d);
-    if (!reasons.count)
+    if (!said.count)
         return;
-    document_section(document, "trust", "Why", NULL);
-    document_list(document, reasons.count, reasons.text);
+    document_section(document, id, heading, NULL);
+    document_list(document, said.count, said.text);
 }
 
 /* ---- parameters */
@@ -188,6 +187,13 @@ static void section_evidence(struct document *document, const rotid_diagnosis *d
 
 /* ---- the rest */
 
+/* How to look for a cause. */
+static const char *cause_check(const char *id)
+{
+    const struct cause_kind *kind = catalogue_find(id);
+    return kind ? kind->check : "";
+}
+
 /* How to look for what was named, or for what cannot be told apart, each check once. */
 static void section_next(struct document *document, const rotid_diagnosis *d, const char *deck)
 {
@@ -217,15 +223,6 @@ static void section_next(struct document *document, const rotid_diagnosis *d, co
     document_list(document, n, text);
 }
 
-static void section_findings(struct document *document, const rotid_diagnosis *d)
-{
-    const struct reasons findings = findings_of_diagnosis(document->pool, d);
-    if (!findings.count)
-        return;
-    document_section(document, "findings", "Measurement and numbers", NULL);
-    document_list(document, findings.count, findings.text);
-}
-
 static void section_detection_limits(struct document *document, const rotid_diagnosis *d)
 {
     if (!d->ndetectable)
@@ -253,10 +250,10 @@ void section_diagnose(struct document *document, const struct result *result)
     }
     section_explanations(document, d);
     section_evidence(document, d);
-    section_why(document, d);
+    section_said(document, "trust", "Why", reasons_of_diagnosis(document->pool, d));
     section_next(document, d, result->head.deck ? result->head.deck : "DECK");
     section_parameters(document, d);
-    section_findings(document, d);
+    section_said(document, "findings", "Measurement and numbers", findings_of_diagnosis(document->pool, d));
     if (d->base) {
         document_section(document, "modes-compared", "Mode by mode", "matrices");
         document_table(document, table_of_compared_modes(document->pool, &result->head, d->extended ? d->extended : d->base,

@@ -96,7 +96,6 @@ void document_figures(struct document *document, const char *group);
 const char *plain_cause(struct pool *pool, const char *id);  /* "soft zone" of stiffness_local */
 const char *plain_text(struct pool *pool, const char *text); /* ids of causes in words, absolute paths without folders */
 const char *plain_file(const char *path);                    /* the last part of an absolute path */
-const char *cause_check(const char *id);                     /* how to look for a cause */
 const char *cause_label(struct pool *pool, const rotid_diagnosis *d, const rotid_cause *cause);
 /* Of cause i of the extended model: those that were named, then those that are likely beside them. */
 const char *extended_label(struct pool *pool, const rotid_diagnosis *d, int i);

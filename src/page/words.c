@@ -89,12 +89,6 @@ const char *plain_text(struct pool *pool, const char *text)
     return pool_text(pool, "%s%s", done, rest);
 }
 
-const char *cause_check(const char *id)
-{
-    const struct cause_kind *kind = catalogue_find(id);
-    return kind ? kind->check : "";
-}
-
 const char *cause_label(struct pool *pool, const rotid_diagnosis *d, const rotid_cause *cause)
 {
     return diagnosis_is_suspected(d, cause) ? cause->name : cause_name(pool, cause->id, cause->target);

@@ -462,6 +462,10 @@ int runup_join(struct pool *pool, const struct states *states, struct message_li
                struct runup **runup);
 int runup_close(struct runup *runup);
 
+/* identify_states of these, without NLopt, from one to the other. */
+int runup_identify(struct pool *pool, const struct states *states, const rotid_environment *environment,
+                   struct message_list *notes, struct identification *out, rotid_fit_result **fit);
+
 /* The measured critical speeds beside those of the model at x [machine_unknowns]; fit as for speeds_run. Statuses of search_until
  * and bands_gradient. */
 int runup_compare(struct pool *pool, const struct machine *machine, const struct job *job, const double *x,

@@ -218,6 +218,17 @@ int runup_close(struct runup *runup)
     return runup && runup->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
+int runup_identify(struct pool *pool, const struct states *states, const rotid_environment *environment,
+                   struct message_list *notes, struct identification *out, rotid_fit_result **fit)
+{
+    struct states joined;
+    struct runup *runup;
+    int status = runup_join(pool, states, notes, &joined, &runup);
+    if (!status)
+        status = identify_states(pool, &joined, 0, environment, notes, out, fit);
+    return runup_close(runup) ? ROTID_ERROR_MEMORY : status;
+}
+
 /* ---- beside the model */
 
 /* The critical speeds that were measured, those of them that the machine has. */

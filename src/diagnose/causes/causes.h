@@ -43,10 +43,9 @@ enum cause_target { /* what a CAUSE card names, and what the scan enumerates */
 
 /* What is expected of a parameter before the data are seen. */
 enum prior_kind {
-    PRIOR_FLAT,     /* uniform between its bounds */
-    PRIOR_GAUSSIAN, /* normal about neutral; half of it where it is one-sided */
-    PRIOR_SHARE,    /* the same with a deviation of `scale` times the distance of the farther bound from neutral (negative: of the
-                       lower one) */
+    PRIOR_FLAT,       /* uniform between its bounds */
+    PRIOR_GAUSSIAN,   /* normal about neutral; half of it where it is one-sided */
+    PRIOR_SHARE,      /* the same with a deviation of `scale` times the distance of the farther bound from neutral */
     PRIOR_LOG_NORMAL, /* ln(x/neutral) normal */
     PRIOR_LOG_FLAT    /* uniform in ln x over `scale` decades below the upper bound */
 };
@@ -60,7 +59,6 @@ struct cause_parameter {
 };
 #define PRIOR_NORMAL(deviation)    .prior = PRIOR_GAUSSIAN, .scale = (deviation)
 #define PRIOR_OF_BOUND(share)      .prior = PRIOR_SHARE, .scale = (share)
-#define PRIOR_OF_LOWER(share)      .prior = PRIOR_SHARE, .scale = -(share)
 #define PRIOR_LOGNORMAL(deviation) .prior = PRIOR_LOG_NORMAL, .scale = (deviation)
 #define PRIOR_DECADES(decades)     .prior = PRIOR_LOG_FLAT, .scale = (decades)
 #define PRIOR_UNIFORM              .prior = PRIOR_FLAT
