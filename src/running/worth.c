@@ -144,9 +144,7 @@ static int add_masses(struct worth *w, int count, const int *number, int highest
 static int add_tests(struct worth *w)
 {
     const struct job_measurement *measured = &w->job->measurement;
-    int count = measured->nmode, highest = 0, first = 2;
-    for (int k = 0; k < count; k++)
-        highest = measured->number[k] > highest ? measured->number[k] : highest;
+    int count = measured->nmode, highest = comparison_highest(w->job), first = 2;
     int most = highest ? highest + MORE_MODES : FIRST_MODES, *number = POOL_ARRAY(w->pool, int, most + count);
     double *rows = POOL_ARRAY(w->pool, double, (size_t)most *(size_t)w->at_rest);
     int status = number && rows ? differentiate(w->pool, w, &w->job->rotor, most, rows) : ROTID_ERROR_MEMORY;
