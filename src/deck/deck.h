@@ -389,9 +389,6 @@ void deck_complete_noise(struct deck_reader *reader);
  * otherwise new. Errors go to the list, of the common cards once; no section: as in the reader. */
 void deck_read_all_states(struct deck_reader *reader, int nread, struct states *states);
 
-/* Whether a measured mode is not held out. */
-int deck_fits_any(const struct job *job);
-
 /* What *SET says of lengths, before anything refers to positions. */
 void deck_set_lengths(struct deck_reader *reader);
 

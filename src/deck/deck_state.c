@@ -220,14 +220,6 @@ static void agree_on_functional(struct states *states)
         states->state[s].job.options.fit.functional = functional;
 }
 
-int deck_fits_any(const struct job *job)
-{
-    for (int k = 0; k < job->measurement.nmode; k++)
-        if (!job->measurement.holdout[k])
-            return 1;
-    return 0;
-}
-
 /* An unknown acts in a state with a mode that is fitted. */
 static void check_use(struct deck_reader *reader, const struct division *d, const struct states *states)
 {
@@ -237,7 +229,7 @@ static void check_use(struct deck_reader *reader, const struct division *d, cons
             for (int q = 0; q < states->state[s].job.unknowns.nparameter; q++)
                 if (states->state[s].unknown[q] == p) {
                     of = s;
-                    used |= deck_fits_any(&states->state[s].job);
+                    used |= job_fitted(&states->state[s].job, states->state[s].job.measurement.holdout);
                 }
         if (!used)
             deck_error(reader, d->state[of]->place, "%s acts in no state that is fitted, expected it in one that is not held out",

@@ -318,7 +318,7 @@ static void edit_holdout(struct writing *w)
     for (int s = 0; s < w->meant.nstate; s++) {
         struct deck_writer modes = writer_of(w, s);
         const struct job *job = &w->meant.state[s].job;
-        int all = w->meant.nstate > 1 && job->measurement.nmode && !deck_fits_any(job);
+        int all = w->meant.nstate > 1 && job->measurement.nmode && !job_fitted(job, job->measurement.holdout);
         if (all)
             deck_put(&whole, "%sSTATE:%s", whole.length ? ", " : "", w->meant.state[s].name);
         else

@@ -87,10 +87,7 @@ static int chi2_left(struct pool *pool, const struct states *solids, const int *
     for (int s = 0, mode = 0; s < solids->nstate; mode += solids->state[s].job.measurement.nmode, s++) {
         struct columns columns;
         double *own = state_values(pool, &solids->state[s], x);
-        int fitted = 0;
-        for (int k = 0; k < solids->state[s].job.measurement.nmode; k++)
-            fitted += !holdout[mode + k];
-        if (!fitted)
+        if (!job_fitted(&solids->state[s].job, holdout + mode))
             continue;
         int status = own ? columns_open(pool, &solids->state[s].job, number + mode, holdout + mode, NULL, own, &columns)
                          : ROTID_ERROR_MEMORY;

@@ -154,14 +154,6 @@ static int are_in_another_unit(struct engine *engine)
     return factor > 0 ? ROTID_ERROR_ARGUMENT : status;
 }
 
-static int count_fitted(const struct job *job)
-{
-    int count = 0;
-    for (int k = 0; k < job->measurement.nmode; k++)
-        count += !job->measurement.holdout[k];
-    return count;
-}
-
 /* Share of the rotor that the sensors of a state cover. */
 static double covered(const struct rotor *rotor)
 {
@@ -248,7 +240,7 @@ int data_prepare(struct engine *engine, const struct states *states)
         status = prepare_state(engine);
         if (status)
             return status;
-        fitted += count_fitted(engine->job);
+        fitted += job_fitted(engine->job, engine->job->measurement.holdout);
         shapes |= job_fits_shapes(engine->job);
     }
     engine_look_at(engine, 0);

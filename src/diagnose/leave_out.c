@@ -38,14 +38,6 @@ static int any_shapes(const struct states *states)
     return any;
 }
 
-static int count_fitted(const struct job *job, const int *holdout)
-{
-    int count = 0;
-    for (int k = 0; k < job->measurement.nmode; k++)
-        count += !holdout[k];
-    return count;
-}
-
 /* ---- a mode left out: one Gauss-Newton step from the fit of all, and a fit only where the model does not follow that step
  *
  *   (J'J - J_k'J_k) d = -(J'r - J_k'r_k), J_k and r_k the rows of the mode; the model at x + d has the residual r + J d where one
@@ -59,7 +51,7 @@ static void mark_rows(const struct states *states, const int *holdout, int k, co
     int mode = 0, row = 0;
     for (int s = 0; s < states->nstate; row += fit->state_nresidual[s++]) {
         const struct job *job = &states->state[s].job;
-        int nsensor = job_fits_shapes(job) ? job->rotor.nsensor : 0, line = row, next = row + count_fitted(job, holdout + mode);
+        int nsensor = job_fits_shapes(job) ? job->rotor.nsensor : 0, line = row, next = row + job_fitted(job, holdout + mode);
         for (int j = 0; j < job->measurement.nmode; j++, mode++) {
             if (holdout[mode])
                 continue;
@@ -201,7 +193,7 @@ struct left_out {
 static int sensors_of_state(struct pool *pool, const struct job *job, const int *holdout, const rotid_fit_result *fit, int first,
                             int rank, const double *basis, struct left_out *out)
 {
-    int nsensor = job->rotor.nsensor, nrow = fit->nresidual, nfitted = count_fitted(job, holdout), next = first + nfitted;
+    int nsensor = job->rotor.nsensor, nrow = fit->nresidual, nfitted = job_fitted(job, holdout), next = first + nfitted;
     int *row = POOL_ARRAY(pool, int, (size_t)nfitted *(size_t)nsensor), *at = POOL_ARRAY(pool, int, nfitted);
     double *right = POOL_ARRAY(pool, double, nfitted);
     struct symmetric block;
@@ -254,7 +246,7 @@ int sensor_out(struct pool *pool, const struct states *states, const int *holdou
     int nrow = fit->nresidual, nfitted = 0, rank = 0, status = ROTID_OK;
     *standardised = *shape_rms = NAN;
     for (int s = 0, mode = 0; s < states->nstate; mode += states->state[s].job.measurement.nmode, s++)
-        nfitted += count_fitted(&states->state[s].job, holdout + mode);
+        nfitted += job_fitted(&states->state[s].job, holdout + mode);
     if (!any_shapes(states) || nrow <= nfitted || nfitted < 1)
         return ROTID_OK;
     double *basis = POOL_ARRAY(pool, double, (size_t)nrow *(size_t)(fit->n + nfitted + 1));
@@ -262,13 +254,13 @@ int sensor_out(struct pool *pool, const struct states *states, const int *holdou
         return ROTID_ERROR_MEMORY;
     for (int s = 0, mode = 0, row = 0; s < states->nstate; mode += states->state[s].job.measurement.nmode, s++) {
         const struct job *job = &states->state[s].job;
-        rank = scale_directions(job, holdout + mode, fit, row + count_fitted(job, holdout + mode), rank, basis);
+        rank = scale_directions(job, holdout + mode, fit, row + job_fitted(job, holdout + mode), rank, basis);
         row += fit->state_nresidual[s];
     }
     rank = basis_add(nrow, fit->n, fit->jacobian, 1e-10, rank, basis);
     for (int s = 0, mode = 0, row = 0; s < states->nstate && !status; mode += states->state[s].job.measurement.nmode, s++) {
         const struct job *job = &states->state[s].job;
-        if (job_fits_shapes(job) && count_fitted(job, holdout + mode))
+        if (job_fits_shapes(job) && job_fitted(job, holdout + mode))
             status = sensors_of_state(pool, job, holdout + mode, fit, row, rank, basis, &out);
         row += fit->state_nresidual[s];
     }

@@ -52,9 +52,7 @@ static void neighbours(const struct engine *engine, const double *r, double *rho
 {
     const struct job *job = engine->job;
     double first = 0, second = 0;
-    int nsensor = job->rotor.nsensor, row = 0, nfirst = 0, nsecond = 0;
-    for (int k = 0; k < job->measurement.nmode; k++)
-        row += !engine->holdout[k];
+    int nsensor = job->rotor.nsensor, row = job_fitted(job, engine->holdout), nfirst = 0, nsecond = 0;
     for (int k = 0; k < job->measurement.nmode; k++) {
         int run = 0; /* neighbours in a row that were measured */
         for (int s = 0; s < nsensor && !engine->holdout[k]; s++) {

@@ -251,9 +251,7 @@ static int open_parts(struct pool *pool, const struct states *states, const int 
     for (int s = 0, mode = 0; s < states->nstate && !status; mode += states->state[s].job.measurement.nmode, s++) {
         const struct state *state = &states->state[s];
         double *own = state_values(pool, state, x);
-        part[s] = (struct part){.row = scan->nrow, .state = state};
-        for (int k = 0; k < state->job.measurement.nmode; k++)
-            part[s].open |= !holdout[mode + k];
+        part[s] = (struct part){.row = scan->nrow, .state = state, .open = job_fitted(&state->job, holdout + mode) > 0};
         if (!own)
             return ROTID_ERROR_MEMORY;
         if (!part[s].open)

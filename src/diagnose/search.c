@@ -117,8 +117,8 @@ static int is_common(const struct engine *engine, const struct scan *scan, int i
             all = &scan->candidate[i];
     int others = 0;
     for (int s = 0, mode = 0; all && s < engine->states.nstate; mode += engine->states.state[s].job.measurement.nmode, s++)
-        for (int k = 0; k < engine->states.state[s].job.measurement.nmode && s != c->state && all->in[s]; k++)
-            others += !engine->holdout[mode + k];
+        if (s != c->state && all->in[s])
+            others += job_fitted(&engine->states.state[s].job, engine->holdout + mode);
     return all && !others;
 }
 

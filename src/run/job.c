@@ -20,10 +20,7 @@ struct place job_sensor_place(const struct job *job, int sensor)
 
 int job_knows_frequency_noise(const struct job *job)
 {
-    for (int k = 0; k < job->measurement.nmode; k++)
-        if (!isfinite(job->measurement.frequency_std[k]))
-            return 0;
-    return job->measurement.nmode > 0;
+    return job->measurement.nmode > 0 && all_finite(job->measurement.nmode, job->measurement.frequency_std);
 }
 
 int job_knows_shape_noise(const struct job *job)
@@ -80,6 +77,14 @@ double *state_values(struct pool *pool, const struct state *state, const double 
     for (int q = 0; q < n && own; q++)
         own[q] = x[state_unknown(state, q)];
     return own;
+}
+
+int job_fitted(const struct job *job, const int *holdout)
+{
+    int fitted = 0;
+    for (int k = 0; k < job->measurement.nmode; k++)
+        fitted += !holdout[k];
+    return fitted;
 }
 
 int states_modes(const struct states *states, int count)

@@ -377,6 +377,9 @@ int state_unknown(const struct state *state, int q);
  */
 double *state_values(struct pool *pool, const struct state *state, const double *x);
 
+/* How many of its measured modes are not held out; holdout [nmode] */
+int job_fitted(const struct job *job, const int *holdout);
+
 /* Measured modes of the first `count` states. */
 int states_modes(const struct states *states, int count);
 

@@ -75,10 +75,7 @@ int rivals_home(const struct states *states)
     int home = 0, most = -1;
     for (int s = 0; s < states->nstate; s++) {
         const struct job *job = &states->state[s].job;
-        int fitted = 0;
-        for (int k = 0; k < job->measurement.nmode; k++)
-            fitted += !job->measurement.holdout[k];
-        fitted *= 1 + (job_fits_shapes(job) ? job->rotor.nsensor : 0);
+        int fitted = job_fitted(job, job->measurement.holdout) * (1 + (job_fits_shapes(job) ? job->rotor.nsensor : 0));
         home = fitted > most ? s : home;
         most = fitted > most ? fitted : most;
     }

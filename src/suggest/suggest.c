@@ -488,9 +488,7 @@ static double median(struct pool *pool, ptrdiff_t n, const double *value)
 static void settle(struct pool *pool, const struct job *job, rotid_suggest_options *o, rotid_noise *noise)
 {
     const struct job_measurement *m = &job->measurement;
-    int fitted = 0;
-    for (int k = 0; k < m->nmode; k++)
-        fitted += !m->holdout[k];
+    int fitted = job_fitted(job, m->holdout);
     if (!(o->frequency_noise > 0))
         o->frequency_noise = m->nmode ? median(pool, m->nmode, m->frequency_std) : m->stated_frequency_noise;
     if (!(o->shape_noise > 0))
