@@ -100,9 +100,7 @@ static int weigh(const struct job *job, const rotid_environment *environment, ro
     struct pool scratch;
     struct mass_properties properties;
     pool_open(&scratch, environment ? environment->allocator : NULL);
-    double *x = POOL_ARRAY(&scratch, double, job->unknowns.nparameter);
-    for (int p = 0; p < job->unknowns.nparameter && x; p++)
-        x[p] = job->unknowns.bounds[p].start;
+    const double *x = parameter_starts(&scratch, job->unknowns.nparameter, job->unknowns.bounds);
     int status =
         x ? model_weigh(&scratch, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, x, &properties)
           : ROTID_ERROR_MEMORY;

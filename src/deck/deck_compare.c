@@ -249,11 +249,9 @@ int deck_copy_rotor(struct pool *pool, const struct rotor *rotor, struct rotor *
 static int at_start(struct pool *pool, const struct job *job, struct rotor *rotor)
 {
     int n = job->unknowns.nparameter;
-    double *x = POOL_ARRAY(pool, double, n);
+    const double *x = parameter_starts(pool, n, job->unknowns.bounds);
     if (!x || deck_copy_rotor(pool, &job->rotor, rotor))
         return ROTID_ERROR_MEMORY;
-    for (int p = 0; p < n; p++)
-        x[p] = job->unknowns.bounds[p].start;
     parameters_set(rotor, n, job->unknowns.parameter, x);
     return ROTID_OK;
 }

@@ -136,11 +136,9 @@ static int are_in_another_unit(struct engine *engine)
     struct spectrum spectrum;
     struct message_list said;
     struct pool scratch;
-    double *x = POOL_ARRAY(engine->pool, double, job->unknowns.nparameter), factor = 0;
+    double *x = parameter_starts(engine->pool, job->unknowns.nparameter, job->unknowns.bounds), factor = 0;
     if (!x)
         return ROTID_ERROR_MEMORY;
-    for (int p = 0; p < job->unknowns.nparameter; p++)
-        x[p] = job->unknowns.bounds[p].start;
     pool_open(&scratch, engine->pool->allocator);
     message_open(&said, &scratch); /* what is no error, the base fit says */
     int status = spectrum_compute_parts(&scratch, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, x,
@@ -230,11 +228,9 @@ static int prepare_state(struct engine *engine)
 int data_prepare(struct engine *engine, const struct states *states)
 {
     int fitted = 0, shapes = 0, nparameter = engine->nown = states->nparameter, status = engine_take_states(engine, states);
-    engine->deck_start = POOL_ARRAY(engine->pool, double, nparameter);
+    engine->deck_start = parameter_starts(engine->pool, nparameter, states->bounds);
     if (status || !engine->deck_start)
         return ROTID_ERROR_MEMORY;
-    for (int p = 0; p < nparameter; p++)
-        engine->deck_start[p] = states->bounds[p].start;
     for (int s = 0; s < states->nstate && !status; s++) {
         engine_look_at(engine, s);
         status = prepare_state(engine);

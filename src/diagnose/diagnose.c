@@ -306,11 +306,9 @@ static int correct(struct pool *pool, const struct job *before, const struct ide
     struct message_list quiet;
     int n = job->unknowns.nparameter, left_out = 0;
     int shapes = job_fits_shapes(before) && job_fits_shapes(job) && job->measurement.shape;
-    double *x = POOL_ARRAY(pool, double, n), *work = POOL_ARRAY(pool, double, 3 * (size_t)job->rotor.nsensor);
+    double *x = parameter_starts(pool, n, job->unknowns.bounds), *work = POOL_ARRAY(pool, double, 3 * (size_t)job->rotor.nsensor);
     if (!x || !work)
         return ROTID_ERROR_MEMORY;
-    for (int p = 0; p < n; p++)
-        x[p] = job->unknowns.bounds[p].start;
     message_open(&quiet, pool);
     int status = spectrum_compute_parts(pool, job->models, &job->rotor, n, job->unknowns.parameter, x, ROTID_GUYAN,
                                         comparison_candidates(job), job->measurement.shape ? SPECTRUM_MASS : 0, &spectrum);
@@ -412,12 +410,10 @@ static int settle(struct engine *engine)
     own.nown = only.nparameter;
     own.nprepared = own.coloured = 0;
     own.fit = NULL;
-    own.deck_start = POOL_ARRAY(engine->pool, double, only.nparameter);
+    own.deck_start = parameter_starts(engine->pool, only.nparameter, only.bounds);
     alone.result.numerical_findings = POOL_ARRAY(engine->pool, rotid_numerical_finding, NUMERICAL_FINDINGS);
     if (!own.deck_start || !alone.result.numerical_findings)
         return ROTID_ERROR_MEMORY;
-    for (int p = 0; p < only.nparameter; p++)
-        own.deck_start[p] = only.bounds[p].start;
     int status = engine_take_states(&own, &only);
     if (!status)
         status = base_prepare(&own);

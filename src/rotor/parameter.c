@@ -120,6 +120,14 @@ const char *parameter_list(struct pool *pool, const struct rotor *rotor, const c
     return l.text;
 }
 
+double *parameter_starts(struct pool *pool, int n, const rotid_parameter *bounds)
+{
+    double *x = POOL_ARRAY(pool, double, n);
+    for (int p = 0; p < n && x; p++)
+        x[p] = bounds[p].start;
+    return x;
+}
+
 double *parameter_value(const struct rotor *rotor, struct parameter parameter)
 {
     int i = parameter.index;

@@ -305,6 +305,9 @@ int parameter_find(const struct rotor *rotor, const char *name, struct parameter
 #define PARAMETERS_LISTED 24
 const char *parameter_list(struct pool *pool, const struct rotor *rotor, const char *of);
 
+/* The starts [n] of unknowns; NULL where memory is out. */
+double *parameter_starts(struct pool *pool, int n, const rotid_parameter *bounds);
+
 /* Its value in the rotor, to read or to set. G of an isotropic material is not stored: give the group a G of its own first. */
 double *parameter_value(const struct rotor *rotor, struct parameter parameter);
 

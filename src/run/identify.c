@@ -384,7 +384,7 @@ static int pairs_moved(const struct running *run)
 static int pair_at_start(struct pool *pool, const struct states *states, struct running *run, struct message_list *notes)
 {
     int status = ROTID_OK;
-    double *start = POOL_ARRAY(pool, double, states->nparameter);
+    const double *start = parameter_starts(pool, states->nparameter, states->bounds);
     for (int s = 0; s < states->nstate; s++) {
         const struct job *job = &run[s].state->job;
         run[s].candidates = comparison_candidates(job);
@@ -397,8 +397,6 @@ static int pair_at_start(struct pool *pool, const struct states *states, struct 
     }
     if (!start)
         return ROTID_ERROR_MEMORY;
-    for (int p = 0; p < states->nparameter; p++)
-        start[p] = states->bounds[p].start;
     for (int s = 0; s < states->nstate && !status; s++) {
         const struct spectrum *spectrum = &run[s].out->spectrum;
         status = pair_state(pool, &run[s], start, run[s].held ? SPECTRUM_COARSE : 0, &run[s].before);

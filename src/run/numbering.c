@@ -162,7 +162,7 @@ static int look_at_state(struct pool *pool, const struct states *states, int s, 
 static int look_ahead(struct pool *pool, const struct states *states, const int *number, struct outlook *o)
 {
     int rows = 0, n = states->nparameter, status = ROTID_OK;
-    double *x = POOL_ARRAY(pool, double, n);
+    const double *x = parameter_starts(pool, n, states->bounds);
     *o = (struct outlook){n, POOL_ARRAY(pool, int, states->nstate), POOL_ARRAY(pool, int, states->nstate), NULL, NULL};
     if (!x || !o->first || !o->count)
         return ROTID_ERROR_MEMORY;
@@ -176,8 +176,6 @@ static int look_ahead(struct pool *pool, const struct states *states, const int 
     o->slope = POOL_ARRAY(pool, double, (size_t)n *(size_t)rows);
     if (!o->frequency || !o->slope)
         return ROTID_ERROR_MEMORY;
-    for (int q = 0; q < n; q++)
-        x[q] = states->bounds[q].start;
     for (int s = 0; s < states->nstate && !status; s++) {
         struct pool scratch;
         pool_open(&scratch, pool->allocator);

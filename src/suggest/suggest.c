@@ -539,9 +539,7 @@ static int take_home(struct pool *pool, const struct states *states, int home, c
 /* Without measurements: the model as the deck states it, its unknowns at their starts. */
 static int take_starts(struct pool *pool, const struct states *states, struct suggestion *out)
 {
-    double *x = POOL_ARRAY(pool, double, states->nparameter);
-    for (int p = 0; x && p < states->nparameter; p++)
-        x[p] = states->bounds[p].start;
+    const double *x = parameter_starts(pool, states->nparameter, states->bounds);
     return x ? take_home(pool, states, rivals_home(states), x, out) : ROTID_ERROR_MEMORY;
 }
 
