@@ -74,6 +74,26 @@ UNIT_TEST(test_optimum_beyond_a_bound_is_pressed_against_it_and_constrained_othe
     }
 }
 
+/* 5e5 N/m is within a millionth of an interval up to 1e12, and two hundredths of a start at 1e8: what the data know to 20 % is
+ * none the less no bound. The frequencies are those of `rotid modes`, with errors of 5e-5. */
+UNIT_TEST(test_what_the_data_know_is_not_pressed_against_a_bound_of_a_wide_interval)
+{
+    static const char text[] =
+        "*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=s\n1, 0.05, 0, 20\n*SPRING, "
+        "NAME=p\n0.2, 5e5\n*SPRING\n0.8, 1e6\n*MODES\n1, 228.93, 1e-3\n2, 624.24, 1e-3\n3, 1203.2, 1e-3\n*NOISE, "
+        "FREQUENCY=1e-4\n*FIT, FUNCTIONAL=LIKELIHOOD\n*IDENTIFY\np.k, 0, 1e12, 1e8\n";
+    rotid_deck *deck;
+    rotid_identification *found;
+    assert_status(rotid_deck_read_text(strlen(text), text, NULL, NULL, 0, NULL, NULL, NULL, &deck), ROTID_OK);
+    assert_status(rotid_identify(deck, 0, NULL, NULL, &found), ROTID_OK);
+    const rotid_fit_result *fit = found->fit;
+    assert_true(fit->converged && !fit->at_bound[0]);
+    assert_in_range(fit->std[0], 4e4, 8e4);
+    assert_true(fabs(fit->x[0] - 5e5) < 2 * fit->std[0]);
+    rotid_identification_free(found);
+    rotid_deck_free(deck);
+}
+
 static void check_minimum(struct paper_fit *fit, const char *text)
 {
     rotid_fit_result *result = NULL;

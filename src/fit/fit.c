@@ -388,6 +388,8 @@ static double step_left(const struct fit *fit, const double *relative_gradient)
     return worst;
 }
 
+#define KNOWN_APART 3 /* standard deviations: so far from a bound the data know a value that is near it for its wide range */
+
 /* Everything about the best point. */
 static int conclude(struct fit *fit, const rotid_lm_result *lm)
 {
@@ -411,6 +413,9 @@ static int conclude(struct fit *fit, const rotid_lm_result *lm)
         gradient[p] = g;
         result->gradient = fmax(result->gradient, fabs(g * fit->parameter[p].start / result->x[p]));
         int side = bounds_pressed(&fit->parameter[p], result->x[p]);
+        double apart = side < 0 ? result->x[p] - fit->parameter[p].lower : fit->parameter[p].upper - result->x[p];
+        if (square * apart * apart * (m - n) > KNOWN_APART * KNOWN_APART * 2 * result->objective * result->x[p] * result->x[p])
+            side = 0;
         result->at_bound[p] = side != 0;
         result->any_at_bound |= side != 0;
         /* f falls towards the inside, by more than rounding: the parameter was only caught there */
