@@ -80,7 +80,7 @@ static struct job *open_job(enum bundle_model model)
 static void open_columns(const struct job *job, const struct effect *extra, struct columns *c)
 {
     assert_status(columns_open(&test_pool, job, job->measurement.number, job->measurement.holdout, extra, NULL, c), ROTID_OK);
-    assert_status(columns_prepare(c), ROTID_OK);
+    assert_status(columns_prepare(c, NULL), ROTID_OK);
 }
 
 /* dr/dx_p by five points, on one side where the parameter cannot go to the other. What columns_parameter needs is lost. */

@@ -28,7 +28,7 @@ static int compare_meshes(struct pool *pool, const struct engine *engine, const 
     *error = (struct mesh_error){0};
     int status = columns_open(pool, job, engine->number, engine->holdout, NULL, x, &here);
     if (!status)
-        status = columns_prepare(&here);
+        status = columns_prepare(&here, NULL);
     if (!status)
         status = columns_open(pool, finer, engine->number, engine->holdout, NULL, x, &there);
     if (status)

@@ -118,7 +118,13 @@ int columns_open(struct pool *pool, const struct job *job, const int *number, co
     return status;
 }
 
-int columns_prepare(struct columns *c)
+static int are_alike(const struct columns_mode *a, const struct columns_mode *b)
+{
+    int alike = a->pair == b->pair && a->sensors == b->sensors;
+    return alike && !memcmp(a->sensor, b->sensor, (size_t)a->sensors * sizeof *a->sensor);
+}
+
+int columns_prepare(struct columns *c, const struct columns *like)
 {
     struct pool *pool = c->pool;
     const rotid_matrix *k = &c->functional.prediction.k;
@@ -150,7 +156,10 @@ int columns_prepare(struct columns *c)
     if (!status)
         nelson_band_begin(&nelson, k, &c->functional.prediction.m);
     for (int m = 0; m < c->nmode && !status; m++)
-        status = solve_adjoints(c, &nelson, zero, m_phi, unit, &c->mode[m]);
+        if (like && m < like->nmode && are_alike(&c->mode[m], &like->mode[m]))
+            c->mode[m].adjoint = like->mode[m].adjoint;
+        else
+            status = solve_adjoints(c, &nelson, zero, m_phi, unit, &c->mode[m]);
     return status;
 }
 

@@ -240,8 +240,9 @@ struct columns {
 int columns_open(struct pool *pool, const struct job *job, const int *number, const int *holdout, const struct effect *extra,
                  const double *x, struct columns *c);
 
-/* Solves for what the columns need; before the first of them. Statuses of memory, or ROTID_ERROR_CLOSE. */
-int columns_prepare(struct columns *c);
+/* Solves for what the columns need; before the first of them. like: NULL, or prepared columns of the same model and point, whose
+ * solutions serve where modes and sensors are the same, and have to stay. Statuses of memory, or ROTID_ERROR_CLOSE. */
+int columns_prepare(struct columns *c, const struct columns *like);
 
 /* column [nrow] for parameter p of the model: the job's first, then those of the extra effect. */
 int columns_parameter(struct columns *c, int p, double *column);

@@ -258,7 +258,7 @@ static int open_parts(struct pool *pool, const struct states *states, const int 
             continue;
         status = columns_open(pool, &state->job, number + mode, holdout + mode, &none, own, &part[s].columns);
         if (!status)
-            status = columns_prepare(&part[s].columns);
+            status = columns_prepare(&part[s].columns, NULL);
         scan->nrow += part[s].columns.nrow;
         scan->nfrequency += part[s].columns.nmode;
     }

@@ -112,7 +112,7 @@ static int one_pair(struct pool *pool, struct pool *scratch, const struct rivals
     job.measurement = source.measurement;
     status = columns_open(scratch, &job, job.measurement.number, job.measurement.holdout, NULL, b->x, c);
     if (!status)
-        status = columns_prepare(c);
+        status = columns_prepare(c, NULL);
     if (!status)
         status = design_new(pool, rivals->nmode, places->n, 0, used, 1, d);
     if (status)
@@ -321,22 +321,20 @@ static int add_noise(struct judging *j)
 static int mass_worth(struct judging *j, const struct test *t, double *worth)
 {
     const struct rivals *rivals = &j->out->rivals;
-    int status = ROTID_OK, feasible = 1;
-    double *distance = POOL_ARRAY(j->pool, double, rivals->n);
+    int n = rivals->n, feasible = 1;
+    struct pool scratch;
+    pool_open(&scratch, j->pool->allocator);
+    double *distance = POOL_ARRAY(&scratch, double, (size_t)n *(size_t)n);
+    int status = distance ? margin_distances(&scratch, rivals, t, distance, &feasible) : ROTID_ERROR_MEMORY;
+    status = scratch.out_of_memory ? ROTID_ERROR_MEMORY : status;
     *worth = 0;
-    if (!distance)
-        return ROTID_ERROR_MEMORY;
-    for (int a = 0; a + 1 < rivals->n && !status && feasible; a++) {
+    for (int a = 0; a + 1 < n && !status && feasible; a++) {
         double least = INFINITY;
-        struct pool scratch;
-        pool_open(&scratch, j->pool->allocator);
-        status = margin_distances(&scratch, rivals, t, a, distance, &feasible);
-        status = scratch.out_of_memory ? ROTID_ERROR_MEMORY : status;
-        pool_close(&scratch);
-        for (int b = 0; b < rivals->n && feasible; b++)
-            least = b == a || (b == rivals->n - 1 && b > 1) ? least : fmin(least, distance[b]);
-        *worth += feasible ? rivals->rival[a].share * log1p(least) : 0;
+        for (int b = 0; b < n; b++)
+            least = b == a || (b == n - 1 && b > 1) ? least : fmin(least, distance[b + (ptrdiff_t)a * n]);
+        *worth += rivals->rival[a].share * log1p(least);
     }
+    pool_close(&scratch);
     return status;
 }
 

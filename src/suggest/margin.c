@@ -82,16 +82,17 @@ static int factor_both(struct pool *pool, const struct rival *rival, const int *
     return ROTID_OK;
 }
 
-static int side_make(struct pool *pool, struct pool *scratch, const struct rival *b, const struct test *test,
-                     const struct job_measurement *measured, struct side *s)
+/* Rival b where `measured` is what rival a would give in that state, its model in *c on the scratch pool; like: NULL, or that of
+ * the same rival for another a. ROTID_OK, memory, or a status that says that it has no model or no partner there. */
+static int side_open(struct pool *pool, struct pool *scratch, const struct rival *b, const struct test *test,
+                     const struct job_measurement *measured, const struct columns *like, struct columns *c, struct side *s)
 {
-    struct columns *c = POOL_NEW(scratch, struct columns);
     int nparameter = b->job.unknowns.nparameter;
     double *x = POOL_ARRAY(scratch, double, nparameter);
     int *own = POOL_ARRAY(scratch, int, nparameter), *own_of_all = POOL_ARRAY(scratch, int, b->fit->n);
     struct job job;
     *s = (struct side){0};
-    if (!c || !x || !own || !own_of_all)
+    if (!x || !own || !own_of_all)
         return ROTID_ERROR_MEMORY;
     int status = test_apply(scratch, test, &b->job, b->x, &job, x, own);
     if (status)
@@ -99,7 +100,7 @@ static int side_make(struct pool *pool, struct pool *scratch, const struct rival
     job.measurement = *measured;
     status = columns_open(scratch, &job, measured->number, measured->holdout, NULL, x, c);
     if (!status)
-        status = columns_prepare(c);
+        status = columns_prepare(c, like);
     if (status)
         return status;
     for (int p = 0; p < b->fit->n; p++) {
@@ -116,18 +117,6 @@ static int side_make(struct pool *pool, struct pool *scratch, const struct rival
         return ROTID_ERROR_MEMORY;
     status = take_columns(c, b, x, s);
     return status ? status : factor_both(pool, b, own_of_all, s);
-}
-
-/* Rival b where `measured` is what rival a would give in that state. ROTID_OK, memory, or a status that says that it has no
- * model or no partner there. Its model goes before that of the next rival comes: of a solid it takes 100 MB. */
-static int side_open(struct pool *pool, const struct rival *b, const struct test *test, const struct job_measurement *measured,
-                     struct side *s)
-{
-    struct pool scratch;
-    pool_open(&scratch, pool->allocator);
-    int status = side_make(pool, &scratch, b, test, measured, s);
-    pool_close(&scratch);
-    return status;
 }
 
 /* Q(z) */
@@ -149,26 +138,52 @@ static double remainder_of(struct side *s, const double *z)
 
 /* ------------------------------------------------------------------------------------------------ all rivals */
 
-/* side [n]: every rival where `truth` is true; none where the state is not feasible. */
-static int open_sides(struct pool *pool, const struct rivals *rivals, const struct test *test, int truth, struct side *side,
-                      int *feasible)
+/* side [n - 1]: rival b where each of the others but the last one is true. Of a solid a model takes 100 MB: of the rival's own
+ * the first one stays until all are opened, whose adjoints serve the others. */
+static int open_rival(struct pool *pool, const struct rivals *rivals, const struct test *test, int b,
+                      const struct job_measurement *measured, struct side **side)
 {
-    const struct rival *a = &rivals->rival[truth];
-    struct job_measurement measured;
-    int status = joint_measurement(pool, a, a->x, test, &measured);
-    for (int b = 0; b < rivals->n && !status; b++)
-        status = side_open(pool, &rivals->rival[b], test, &measured, &side[b]);
+    struct columns first, other;
+    struct pool of_first;
+    int status = ROTID_OK;
+    pool_open(&of_first, pool->allocator);
+    for (int a = 0; a + 1 < rivals->n && !status; a++) {
+        struct pool scratch;
+        pool_open(&scratch, pool->allocator);
+        status = side_open(pool, a ? &scratch : &of_first, &rivals->rival[b], test, &measured[a], a ? &first : NULL,
+                           a ? &other : &first, &side[a][b]);
+        pool_close(&scratch);
+    }
+    pool_close(&of_first);
+    return status;
+}
+
+/* side [n - 1][n]: every rival where each but the last one is true; none where the state is not feasible. */
+static int open_sides(struct pool *pool, const struct rivals *rivals, const struct test *test, struct side ***side, int *feasible)
+{
+    int n = rivals->n, status = ROTID_OK;
+    struct job_measurement *measured = POOL_ARRAY(pool, struct job_measurement, n);
+    *side = POOL_ARRAY(pool, struct side *, n);
+    if (!measured || !*side)
+        return ROTID_ERROR_MEMORY;
+    for (int a = 0; a + 1 < n && !status; a++) {
+        (*side)[a] = POOL_ARRAY(pool, struct side, n);
+        status =
+            (*side)[a] ? joint_measurement(pool, &rivals->rival[a], rivals->rival[a].x, test, &measured[a]) : ROTID_ERROR_MEMORY;
+    }
+    for (int b = 0; b < n && !status; b++)
+        status = open_rival(pool, rivals, test, b, measured, *side);
     *feasible = !status;
     return status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED ? status : ROTID_OK;
 }
 
-int margin_distances(struct pool *pool, const struct rivals *rivals, const struct test *test, int truth, double *distance,
-                     int *feasible)
+int margin_distances(struct pool *pool, const struct rivals *rivals, const struct test *test, double *distance, int *feasible)
 {
-    struct side *side = POOL_ARRAY(pool, struct side, rivals->n);
-    int status = side ? open_sides(pool, rivals, test, truth, side, feasible) : ROTID_ERROR_MEMORY;
-    for (int b = 0; b < rivals->n && !status && *feasible; b++)
-        distance[b] = b == truth ? 0 : remainder_of(&side[b], side[b].d);
+    struct side **side;
+    int n = rivals->n, status = open_sides(pool, rivals, test, &side, feasible);
+    for (int a = 0; a + 1 < n && !status && *feasible; a++)
+        for (int b = 0; b < n; b++)
+            distance[b + (ptrdiff_t)a * n] = b == a ? 0 : remainder_of(&side[a][b], side[a][b].d);
     return status;
 }
 
@@ -294,18 +309,16 @@ static int draw_all(struct pool *pool, const struct rivals *rivals, int truth, s
     return ROTID_OK;
 }
 
-static int judge_truth(struct pool *pool, const struct rivals *rivals, const struct test *test, int truth, unsigned long seed,
-                       rotid_suggested_test *out, int *feasible)
+static int judge_truth(struct pool *pool, const struct rivals *rivals, struct side *side, int truth, unsigned long seed,
+                       rotid_suggested_test *out)
 {
-    int n = rivals->n, nown = rivals->rival[n - 1].fit->n, *won = POOL_ARRAY(pool, int, n);
-    struct side *side = POOL_ARRAY(pool, struct side, n);
+    int n = rivals->n, nown = rivals->rival[n - 1].fit->n, *won = POOL_ARRAY(pool, int, n), status = ROTID_OK;
     struct counts count = {.variance = POOL_ARRAY(pool, double, nown)};
-    if (!side || !won || !count.variance)
+    if (!won || !count.variance)
         return ROTID_ERROR_MEMORY;
-    int status = open_sides(pool, rivals, test, truth, side, feasible);
-    for (int b = 0; b < n && !status && *feasible; b++)
+    for (int b = 0; b < n && !status; b++)
         status = open_unknowns(pool, &rivals->rival[b], nown, &side[b]);
-    if (status || !*feasible)
+    if (status)
         return status;
     struct side *a = &side[truth];
     double *spread = POOL_ARRAY(pool, double, (size_t)a->nrow *(size_t)a->n);
@@ -344,13 +357,14 @@ int margin_judge(struct pool *pool, const struct rivals *rivals, const struct te
     *feasible = POOL_LIST(pool, out->margins, (size_t)n * (size_t)n) > 0 && out->nexpected_percent == nown;
     if (!*feasible)
         return ROTID_ERROR_MEMORY;
-    for (int a = 0; a + 1 < n && !status && *feasible; a++) {
-        struct pool scratch; /* models of every rival */
-        pool_open(&scratch, pool->allocator);
-        status = judge_truth(&scratch, rivals, test, a, seed, out, feasible);
-        status = scratch.out_of_memory ? ROTID_ERROR_MEMORY : status;
-        pool_close(&scratch);
-    }
+    struct side **side;
+    struct pool scratch;
+    pool_open(&scratch, pool->allocator);
+    status = open_sides(&scratch, rivals, test, &side, feasible);
+    for (int a = 0; a + 1 < n && !status && *feasible; a++)
+        status = judge_truth(&scratch, rivals, side[a], a, seed, out);
+    status = scratch.out_of_memory ? ROTID_ERROR_MEMORY : status;
+    pool_close(&scratch);
     for (int p = 0; p < nown; p++) /* variances so far */
         out->expected_percent[p] = 196 * sqrt(out->expected_percent[p]) / fabs(rivals->rival->fit->x[p]);
     return status;

@@ -134,7 +134,7 @@ static int plan_design(struct pool *pool, const struct job *job, const double *x
     if (!status)
         status = columns_open(pool, &at, at.measurement.number, at.measurement.holdout, &none, x, c);
     if (!status)
-        status = columns_prepare(c);
+        status = columns_prepare(c, NULL);
     if (!status)
         status = design_new(pool, plan->modes, places->n, c->functional.nwhole, job->unknowns.nparameter, targets.n, design);
     return status ? status : fill(c, &at, x, &targets, design);

@@ -268,11 +268,10 @@ int joint_chi2(struct pool *pool, const struct rival *b, const struct test *test
  * (score_b - score_a) + Q_b(w - d_b) - Q_a(w),   w = y - f_a(x_a). A name results where M_b exceeds what the decision asks for,
  * of every other rival at once. */
 
-/* The best fit of rival b to both states without noise fails by distance [n] = Q_b(d_b), b = 0 ... n - 1 (0 for a itself), if
- * rival `truth` is true. *feasible 0: no such state, or modes that have no partner; distance is then not set. Statuses of memory
- * and cancellation only. */
-int margin_distances(struct pool *pool, const struct rivals *rivals, const struct test *test, int truth, double *distance,
-                     int *feasible);
+/* The best fit of rival b to both states without noise fails by distance [n * (n - 1)] = Q_b(d_b), b = 0 ... n - 1 (0 for a
+ * itself), if rival a = 0 ... n - 2 is true. *feasible 0: no such state, or modes that have no partner; distance is then not set.
+ * Statuses of memory and cancellation only. */
+int margin_distances(struct pool *pool, const struct rivals *rivals, const struct test *test, double *distance, int *feasible);
 
 /* All of it over draws of noise: fills chance, wrong and margins of *out (the lead expected is that of the formulas, the
  * chances are those of the draws), over the truths by their shares. *feasible likewise. */
