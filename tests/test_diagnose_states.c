@@ -384,6 +384,29 @@ UNIT_TEST(what_changed_is_named_and_what_stays_is_not)
     }
 }
 
+/* A joint that was tightened, a mass that was taken off: what is gone is named as what the first state has beside the second. */
+UNIT_TEST(what_is_gone_is_named_the_other_way_round)
+{
+    static const struct {
+        const char *effect[2]; /* that stays, that goes */
+        const char *id, *name;
+        double truth;
+    } pairs[] = {
+        {{"density:group=left,factor=1.1", "joint:at=left.end,flexibility=1e-7"}, "joint", "flexibility", 1e-7},
+        {{"density:group=left,factor=1.1", "added_mass:mass=1.5,z=0.7"}, "added_mass", "mass", 1.5},
+    };
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
+        const struct hidden_state states[] = {{"before", "", 2, pairs[i].effect}, {"after", "", 1, pairs[i].effect}};
+        const struct hide_request r = request(6, 13, 1600 + 10 * (unsigned)i);
+        rotid_diagnosis *d = diagnose(&r, states, NULL, "before", "after");
+        assert_string_equal(d->before, "after");
+        assert_string_equal(d->after, "before");
+        assert_named(d, pairs[i].id, NULL, pairs[i].name, pairs[i].truth);
+        assert_non_null(strstr(d->verdict.sentence, "Between after and before changed"));
+        rotid_diagnosis_free(d);
+    }
+}
+
 /* The states of a deck, and the job that asks what changed from one to the other. */
 static void read_changed(const char *text, struct states *read, struct job *out)
 {

@@ -572,13 +572,12 @@ static int diagnose(struct pool *pool, const struct states *states, const struct
     return status;
 }
 
-int diagnose_states(struct pool *pool, const struct states *states, const struct diagnose_options *options,
-                    const rotid_environment *environment, struct message_list *notes, struct diagnosis *out)
+/* What `after` has and `before` has not. */
+static int diagnose_changed(struct pool *pool, const struct states *states, const struct diagnose_options *options,
+                            const rotid_environment *environment, struct message_list *notes, struct diagnosis *out)
 {
     struct job job;
     struct state state;
-    if (!options->before)
-        return diagnose(pool, states, options, environment, notes, out);
     *out = (struct diagnosis){.result = nothing};
     int status = changed_job(pool, states, options->before, options->after, options, environment, notes, &job);
     if (status == ROTID_STOP_CANCELLED) {
@@ -587,6 +586,58 @@ int diagnose_states(struct pool *pool, const struct states *states, const struct
     }
     const struct states only = states_of(&job, &state);
     return status ? status : diagnose(pool, &only, options, environment, notes, out);
+}
+
+#define LIKELIER 3 /* ln: of the explanation of one order of the states beside that of the other */
+
+/* The likeliest explanation, NULL: none, or that it is something else. */
+static const struct explanation *named(const struct diagnosis *d)
+{
+    const struct explanation *lead = d->posterior.count ? d->posterior.item : NULL;
+    return lead && lead->nmember && !lead->something_else ? lead : NULL;
+}
+
+/* What `before` has and `after` has not, as a joint that was tightened, is nothing that a mass or a joint of `after` explains,
+ * both of one sign, and other causes imitate that. The states are compared the other way round then, where that explains them
+ * better. */
+static int diagnose_gone(struct pool *pool, const struct states *states, const struct diagnose_options *options,
+                         const rotid_environment *environment, struct message_list *notes, struct diagnosis *out)
+{
+    struct diagnose_options other = *options;
+    struct diagnosis gone;
+    struct message_list quiet;
+    message_open(&quiet, pool);
+    other.before = options->after;
+    other.after = options->before;
+    int status = diagnose_changed(pool, states, &other, environment, &quiet, &gone);
+    if (status)
+        return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
+    const struct explanation *one = named(&gone), *lead = out->posterior.item;
+    out->result.interrupted |= gone.result.interrupted;
+    if (gone.result.interrupted || !one || !(one->log_posterior > lead->log_posterior + LIKELIER)) {
+        diagnose_free(&gone);
+        return ROTID_OK;
+    }
+    diagnose_free(out);
+    *out = gone;
+    for (size_t i = 0; i < quiet.count; i++)
+        message_add(notes, quiet.item[i].severity, quiet.item[i].file, quiet.item[i].line, quiet.item[i].column, "%s",
+                    quiet.item[i].text);
+    message_warn(notes, "compared from %s to %s: what %s has not any more explains the states better than what %s has beside %s",
+                 other.before, other.after, other.before, other.before, other.after);
+    return ROTID_OK;
+}
+
+int diagnose_states(struct pool *pool, const struct states *states, const struct diagnose_options *options,
+                    const rotid_environment *environment, struct message_list *notes, struct diagnosis *out)
+{
+    if (!options->before)
+        return diagnose(pool, states, options, environment, notes, out);
+    int status = diagnose_changed(pool, states, options, environment, notes, out);
+    int is_done = status || out->result.interrupted || !out->posterior.count || !out->posterior.item->nmember;
+    return is_done && !(out->posterior.count && out->posterior.item->something_else)
+               ? status
+               : diagnose_gone(pool, states, options, environment, notes, out);
 }
 
 void diagnose_free(struct diagnosis *out)
