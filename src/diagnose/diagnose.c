@@ -610,8 +610,14 @@ static int diagnose_gone(struct pool *pool, const struct states *states, const s
     other.before = options->after;
     other.after = options->before;
     int status = diagnose_changed(pool, states, &other, environment, &quiet, &gone);
+    if (status == ROTID_ERROR_MEMORY || pool->out_of_memory) {
+        if (!status)
+            diagnose_free(&gone);
+        diagnose_free(out);
+        return ROTID_ERROR_MEMORY;
+    }
     if (status)
-        return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
+        return ROTID_OK;
     const struct explanation *one = named(&gone), *lead = out->posterior.item;
     out->result.interrupted |= gone.result.interrupted;
     if (gone.result.interrupted || !one || !(one->log_posterior > lead->log_posterior + LIKELIER)) {

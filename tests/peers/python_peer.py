@@ -535,7 +535,7 @@ a rotor
 *DENSITY
 7850.,
 *BEAM SECTION, ELSET=LEFT, MATERIAL=STEEL, SECTION=CIRC
-0.05, 0.05
+0.10, 0.10
 1., 0., 0.
 *BEAM SECTION, ELSET=TUBE, MATERIAL=STEEL, SECTION=PIPE
 0.08, 0.06
@@ -578,7 +578,7 @@ def from_abaqus(checks, folder):
         written(rotid.from_abaqus(path), deck)
         checks.close(f"from Abaqus: {name}", [rotid.run("check", deck)["mass_kg"]], [rotid.run("check", hand)["mass_kg"]], 1e-12)
     text = ABAQUS.replace("*STEP", "*BOUNDARY\n1, 1, 3\n*STEP")
-    path.write_text(text.replace("2.1E11, 0.3", "2.1E5, 0.3").replace("7850.,", "7.85E-9").replace("0.05, 0.05", "50.").replace("0.08, 0.06", "80., 60.")
+    path.write_text(text.replace("2.1E11, 0.3", "2.1E5, 0.3").replace("7850.,", "7.85E-9").replace("0.10, 0.10", "50.").replace("0.08, 0.06", "80., 60.")
                     .replace("0.04, 0.03", "40., 30.").replace("0.3\n3", "300.\n3").replace("0.7\n", "700.\n").replace("1.0\n*", "1000.\n*")
                     .replace("\n5.\n", "\n5e-3\n").replace("0.02, 0.02, 0.03", "20., 20., 30.").replace("1e6", "1e3"))
     said = written(rotid.from_abaqus(path, units="MM"), deck)
@@ -606,7 +606,7 @@ def from_abaqus(checks, folder):
         "another element": (ABAQUS.replace("TYPE=B31, ELSET=LEFT", "TYPE=B32, ELSET=LEFT"), "line 8: *ELEMENT: TYPE=B32"),
         "a card that it does not know": (ABAQUS.replace("*STEP", "*EQUATION\n1\n*STEP"), "*EQUATION: has no place in a deck"),
         "a section that is not round": (ABAQUS.replace("SECTION=CIRC", "SECTION=RECT"), "line 22: *BEAM SECTION: SECTION=RECT is not round"),
-        "an ellipse": (ABAQUS.replace("0.05, 0.05", "0.05, 0.04"), "line 23: *BEAM SECTION: has the radii"),
+        "an ellipse": (ABAQUS.replace("0.10, 0.10", "0.10, 0.08"), "line 23: *BEAM SECTION: has the diameters"),
         "a wall above the radius": (ABAQUS.replace("0.08, 0.06", "0.08, 0.09"), "line 26: *BEAM SECTION: has the outer radius"),
         "a node that is no number": (ABAQUS.replace("2, 0., 0., 0.3", "2, 0., 0., x"), "line 5: *NODE: z is 'x'"),
         "a node that is a number to Python alone": (ABAQUS.replace("2, 0., 0., 0.3", "2, 0., 0., 0_3"), "line 5: *NODE: z is '0_3'"),

@@ -248,8 +248,19 @@ char *hide_list(void)
             hide_add(&text, ":kind=%s", kind->outside);
         for (int k = 0; k < HIDE_MOST_KEYS && kind->key[k].name; k++) {
             const struct hide_key *key = &kind->key[k];
-            static const char *const what[] = {"NUMBER", "PLACE",  "GROUP",         "GROUP", "GROUP.end", "TIEROD",
-                                               "SPRING", "SENSOR", "SENSOR+SENSOR", "MODE",  "MODE+MODE", NULL};
+            static const char *const what[] = {[HIDE_NUMBER] = "NUMBER",
+                                               [HIDE_PLACE] = "PLACE",
+                                               [HIDE_GROUP] = "GROUP",
+                                               [HIDE_KNOWN_GROUP] = "GROUP",
+                                               [HIDE_INTERFACE] = "GROUP.end",
+                                               [HIDE_TIE] = "TIEROD",
+                                               [HIDE_SPRING] = "SPRING",
+                                               [HIDE_DISK] = "DISK",
+                                               [HIDE_SENSOR] = "SENSOR",
+                                               [HIDE_SENSOR_PAIR] = "SENSOR+SENSOR",
+                                               [HIDE_MODE] = "MODE",
+                                               [HIDE_MODE_PAIR] = "MODE+MODE",
+                                               [HIDE_WORD] = NULL};
             const char *value = what[key->type] ? what[key->type] : key->words;
             const char *before = k || kind->outside ? "," : ":";
             hide_add(&text, key->required ? "%s%s=%s" : "[%s%s=%s]", before, key->name, value);

@@ -194,7 +194,9 @@ class Reader:
         second = value(card, line, fields, 1, "the second dimension", 0, first if kind == "CIRC" else None)
         second = second if len(fields) < 2 or not fields[1] else in_si(second, self.scale["length"])
         if kind == "CIRC" and second != first:
-            card.wrong(f"has the radii {first:g} and {second:g} m, expected a circle", line)
+            card.wrong(f"has the diameters {first:g} and {second:g} m, expected a circle", line)
+        if kind == "CIRC" and len(fields) > 1 and fields[1]:
+            first = second = first / 2  # CalculiX has two diameters where Abaqus has one radius
         inner = 0.0 if kind == "CIRC" else first - second
         if not 0 <= inner < first:
             card.wrong(f"has the outer radius {first:g} m and the wall {second:g} m, expected a wall above zero and not above the radius", line)
