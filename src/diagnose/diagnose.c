@@ -627,8 +627,7 @@ static int diagnose_gone(struct pool *pool, const struct states *states, const s
     diagnose_free(out);
     *out = gone;
     for (size_t i = 0; i < quiet.count; i++)
-        message_add(notes, quiet.item[i].severity, quiet.item[i].file, quiet.item[i].line, quiet.item[i].column, "%s",
-                    quiet.item[i].text);
+        message_at(notes, quiet.item[i].severity, quiet.item[i], "%s", quiet.item[i].text);
     message_warn(notes, "compared from %s to %s: what %s has not any more explains the states better than what %s has beside %s",
                  other.before, other.after, other.before, other.before, other.after);
     return ROTID_OK;
@@ -640,10 +639,9 @@ int diagnose_states(struct pool *pool, const struct states *states, const struct
     if (!options->before)
         return diagnose(pool, states, options, environment, notes, out);
     int status = diagnose_changed(pool, states, options, environment, notes, out);
-    int is_done = status || out->result.interrupted || !out->posterior.count || !out->posterior.item->nmember;
-    return is_done && !(out->posterior.count && out->posterior.item->something_else)
-               ? status
-               : diagnose_gone(pool, states, options, environment, notes, out);
+    const struct explanation *lead = !status && !out->result.interrupted && out->posterior.count ? out->posterior.item : NULL;
+    return lead && (lead->nmember || lead->something_else) ? diagnose_gone(pool, states, options, environment, notes, out)
+                                                           : status;
 }
 
 void diagnose_free(struct diagnosis *out)
