@@ -948,7 +948,8 @@ typedef struct rotid_diagnosis {
     const char *extended_deck;  /* the deck with the named causes and the fitted values in it, as text, which names files by
                                    absolute  paths; NULL where no deck reads as that model: a warning says why */
     void *memory;               /* internal */
-    const char *before, *after; /* the states of which it says what changed between them; NULL: it says what the model lacks */
+    const char *before, *after; /* the states of which it says what changed between them, exchanged where what is gone in the
+                                   second one explains them better; NULL: it says what the model lacks */
     int nhidden;
     rotid_hidden *hidden; /* for each parameter of *IDENTIFY those that move it most, the largest first, three at most */
     int nparameters;

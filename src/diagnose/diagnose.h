@@ -144,7 +144,8 @@ struct diagnosis {
     struct identification extended; /* the base again where nothing was named: fit NULL then */
 };
 
-/* Over all states of a deck. Everything hangs on the pool except the fits: diagnose_free. Notes go to the list. ROTID_OK;
+/* Over all states of a deck, or what changed between two: result.before and after are exchanged where the other order explains
+ * that better. Everything hangs on the pool except the fits: diagnose_free. Notes go to the list. ROTID_OK;
  * ROTID_ERROR_ARGUMENT where the job has nothing that can be judged (the list says what and what was expected); any status of the
  * fits. An interruption by the environment is no error: what is finished stands in *out with `result.interrupted`. */
 int diagnose_states(struct pool *pool, const struct states *states, const struct diagnose_options *options,
