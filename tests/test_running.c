@@ -331,6 +331,47 @@ static const char *mass_between(const char *table)
                        table, table);
 }
 
+/* Bearings that stiffen with the speed between two rows as 2k = f m ((a + b) W - a b): with f = 1 a mass on them alone has its
+ * bounce above W from a to b and below it on either side. With the shaft, 1/(48 E I/L^3) + L/(4 kappa G A) softer, the places
+ * move; each is critical twice, backward and forward, however near they are to each other, and once however the diagram is
+ * sampled. */
+POOL_TEST(a_mode_that_rides_along_the_speed_is_critical_where_it_comes_and_where_it_goes)
+{
+    static const double turn[][3] = {{5880, 6175, 1}, {5980, 6020, 1}, {5980, 6020, 1.0002}, {5980, 6020, 1.00035}};
+    static const int speeds[] = {2, 53, 313};
+    const double row[2] = {4000, 14000}, m = 50, e = 1e14, area = 3.14159265358979323846 * 0.01, inertia = area * 0.01 / 4;
+    const double kappa = 6 * 1.3 / (7 + 6 * 0.3), shaft = 1 / (1 / (48 * e * inertia) + 1 / (4 * kappa * e / 2.6 * area));
+    for (size_t n = 0; n < sizeof turn / sizeof *turn; n++) {
+        double a = turn[n][0] * RPM, b = turn[n][1] * RPM, k[2], expected[3], before = 1;
+        int count = 0;
+        for (int i = 0; i < 2; i++)
+            k[i] = turn[n][2] * m * ((a + b) * row[i] * RPM - a * b) / 2;
+        for (double rpm = 500; rpm < 15600; rpm += 0.05) {
+            double film = 2 * (k[0] + (k[1] - k[0]) * fmax(0, fmin(1, (rpm - row[0]) / (row[1] - row[0]))));
+            double above = film * shaft / (film + shaft) / m - rpm * RPM * rpm * RPM;
+            if (above * before < 0)
+                expected[count++] = rpm;
+            before = above;
+        }
+        assert_int_equal(count, n == 1 ? 1 : 3);
+        const char *path = folder_write("ride.csv", pool_format(&test_pool,
+                                                                "speed_rpm,kxx,kyy,cxx,cyy\n%.17g,%.17g,%.17g,1,1\n"
+                                                                "%.17g,%.17g,%.17g,1,1\n",
+                                                                row[0], k[0], k[0], row[1], k[1], k[1]));
+        for (size_t j = 0; j < sizeof speeds / sizeof *speeds; j++) {
+            struct running_case c;
+            assert_int_equal(running_case_open(mass_between(path), 15600, speeds[j], 0, &c), ROTID_OK);
+            assert_int_equal(c.speeds.ncritical_speeds, 2 * count);
+            for (int i = 0; i < 2 * count; i++) {
+                const rotid_critical_speed *one = &c.speeds.critical_speeds[i], *other = &c.speeds.critical_speeds[i ^ 1];
+                assert_close(one->speed_rpm, expected[i / 2], 1e-4, 0);
+                assert_string_equal(one->whirl, strcmp(other->whirl, "forward") ? "forward" : "backward");
+            }
+            running_case_close(&c);
+        }
+    }
+}
+
 /* Between rows of a table whose damping rises beyond critical Im lambda = sqrt(k/m - (c/2m)^2) falls from above the speed to 0,
  * and comes back. Both ends of such a row are speeds of the diagram, and at one of them there is no mode. */
 POOL_TEST(a_mode_that_is_overdamped_at_the_next_row_has_crossed_the_speed)

@@ -12,6 +12,9 @@
 #define ONE_MODE 0.8   /* and of one mode at two speeds of a bracket */
 #define DIVERGED 24    /* halves of a step of speed */
 #define ROUNDING 1e-12 /* of the largest entry of a matrix */
+#define INSIDE   1e-6  /* of a step of speed: where the slopes at its ends are */
+#define NEARER   0.5   /* of the distances from h W at the ends of a step: between them modes are followed that come nearer, */
+#define SPLITS   8     /* in so many parts */
 #define FINEST   256   /* steps at least through half a bracket, in the last attempt */
 
 int critical_side(double h)
@@ -292,48 +295,97 @@ static int cross_to_rest(struct system *s, double from, double to, double h, str
            cross(s, from, to, h, 1, c, near);
 }
 
+/* Of a mode on one side of h W at both speeds, where Im lambda - h W comes nearest to 0 between, by the cubic of values and
+ * slopes. NAN where that is at an end, or hardly nearer than there. A table of bearings may bend at either speed: slopes within.
+ */
+static double nearest_between(struct system *s, double h, double from, const struct pair *a, double to, const struct pair *b)
+{
+    double apart = to - from, first = cimag(a->lambda) - h * from, last = cimag(b->lambda) - h * to, side = first > 0 ? 1 : -1;
+    system_at(s, from + INSIDE * apart);
+    double falls = -side * (cimag(pair_rate(s, a)) - h) * apart;
+    system_at(s, to - INSIDE * apart);
+    double rises = side * (cimag(pair_rate(s, b)) - h) * apart;
+    first *= side;
+    last *= side;
+    if (!(falls > 0 && rises > 0))
+        return NAN;
+    double cubic = rises - falls + 2 * (first - last), square = 3 * (last - first) + 2 * falls - rises;
+    double root = sqrt(square * square + 3 * cubic * falls), t = falls / (square + root);
+    return first + t * (-falls + t * (square + t * cubic)) < NEARER * fmin(first, last) ? from + t * apart : (double)NAN;
+}
+
+struct crossings {
+    struct pool *pool;
+    struct system *system;
+    double h;
+    struct pair near;
+    int count;
+    struct critical *critical;
+    double missed;
+};
+
+/* The crossings of mode m between two speeds. Where the mode may come to h W and turn back it is followed to where it turns. */
+static int find_between(struct crossings *all, int m, int splits, double from, const struct pair *a, double to,
+                        const struct pair *b)
+{
+    struct system *s = all->system;
+    double h = all->h, turn = NAN;
+    int both = is_there(a) && is_there(b);
+    if (!is_there(a) && !is_there(b))
+        return ROTID_OK;
+    if (both && (cimag(a->lambda) - h * from) * (cimag(b->lambda) - h * to) > 0) {
+        turn = splits ? nearest_between(s, h, from, a, to, b) : NAN;
+        if (!(turn > from && turn < to))
+            return ROTID_OK;
+    }
+    struct critical c = {.mode = m};
+    if (pair_new(all->pool, s->size, &c.pair) || (!all->near.u && pair_new(all->pool, s->size, &all->near)))
+        return ROTID_ERROR_MEMORY;
+    if (!isnan(turn)) {
+        pair_copy(s->size, a, &c.pair);
+        if (pair_follow(s, from, turn, 1, &c.pair)) {
+            all->missed = fmin(all->missed, from);
+            return ROTID_OK;
+        }
+        int status = find_between(all, m, splits - 1, from, a, turn, &c.pair);
+        return status ? status : find_between(all, m, splits - 1, turn, &c.pair, to, b);
+    }
+    if (!both) {
+        pair_copy(s->size, is_there(a) ? a : b, &c.pair);
+        if (!cross_to_rest(s, is_there(a) ? from : to, is_there(a) ? to : from, h, &c, all->near) &&
+            !is_taken(s, all->count, all->critical, &c) && POOL_ADD(all->pool, all->critical, all->count, &c))
+            return ROTID_ERROR_MEMORY;
+        return ROTID_OK;
+    }
+    /* a long step may go straight on from one locus to another one where short ones veer: then the other one crosses */
+    int lost = 1, taken = 0;
+    for (int least = 1; least <= FINEST && lost; least *= 16)
+        for (int back = 0; back < 2 && lost; back++) {
+            pair_copy(s->size, back ? b : a, &c.pair);
+            lost = cross(s, back ? to : from, back ? from : to, h, least, &c, all->near);
+            taken = !lost && (back || least > 1) && is_taken(s, all->count, all->critical, &c);
+        }
+    if (lost)
+        all->missed = fmin(all->missed, from);
+    else if (!taken && !is_known(all->count, all->critical, &c) && POOL_ADD(all->pool, all->critical, all->count, &c))
+        return ROTID_ERROR_MEMORY;
+    return ROTID_OK;
+}
+
 int criticals_find(struct pool *pool, struct system *s, const struct tracks *t, double h, int *count, struct critical **critical,
                    double *missed)
 {
-    struct pair near = {.u = NULL};
-    *count = 0;
-    *critical = NULL;
-    *missed = NAN;
+    struct crossings all = {.pool = pool, .system = s, .h = h, .missed = NAN};
+    int status = ROTID_OK;
     for (int m = 0; m < t->nmode; m++)
-        for (int i = 0; i + 1 < t->nspeed; i++) {
-            const struct pair *a = track_at(t, m, i), *b = track_at(t, m, i + 1);
-            double from = t->speed[i], to = t->speed[i + 1];
-            int both = is_there(a) && is_there(b);
-            if (both ? (cimag(a->lambda) - h * from) * (cimag(b->lambda) - h * to) > 0 : !is_there(a) && !is_there(b))
-                continue;
-            struct critical c = {.mode = m};
-            if (pair_new(pool, s->size, &c.pair) || (!near.u && pair_new(pool, s->size, &near)))
-                return ROTID_ERROR_MEMORY;
-            if (!both) {
-                pair_copy(s->size, is_there(a) ? a : b, &c.pair);
-                if (!cross_to_rest(s, is_there(a) ? from : to, is_there(a) ? to : from, h, &c, near) &&
-                    !is_taken(s, *count, *critical, &c) && POOL_ADD(pool, *critical, *count, &c))
-                    return ROTID_ERROR_MEMORY;
-                continue;
-            }
-            /* a long step may go straight on from one locus to another one where short ones veer: then the other one crosses */
-            int lost = 1, taken = 0;
-            for (int least = 1; least <= FINEST && lost; least *= 16)
-                for (int back = 0; back < 2 && lost; back++) {
-                    pair_copy(s->size, back ? b : a, &c.pair);
-                    lost = cross(s, back ? to : from, back ? from : to, h, least, &c, near);
-                    taken = !lost && (back || least > 1) && is_taken(s, *count, *critical, &c);
-                }
-            if (taken)
-                continue;
-            if (lost)
-                *missed = fmin(*missed, from);
-            else if (!is_known(*count, *critical, &c) && POOL_ADD(pool, *critical, *count, &c))
-                return ROTID_ERROR_MEMORY;
-        }
-    if (*count)
-        qsort(*critical, (size_t)*count, sizeof **critical, by_speed);
-    return ROTID_OK;
+        for (int i = 0; i + 1 < t->nspeed && !status; i++)
+            status = find_between(&all, m, SPLITS, t->speed[i], track_at(t, m, i), t->speed[i + 1], track_at(t, m, i + 1));
+    if (all.count)
+        qsort(all.critical, (size_t)all.count, sizeof *all.critical, by_speed);
+    *count = all.count;
+    *critical = all.critical;
+    *missed = all.missed;
+    return status;
 }
 
 double critical_rate(struct system *nominal, struct system side[2], double apart, double h, const struct critical *c,

@@ -11,6 +11,7 @@
 #define HALVINGS       30
 #define FARTHEST       0.2  /* of the speed: a step of Newton */
 #define ONE            1e-7 /* relative distance of two eigenvalues below which they are one */
+#define ASIDE          1e-7 /* of lambda: a shift beside it, to which modes of one value, as the bounce of a drum, are one */
 #define GROWS_STRAIGHT 1e-7 /* of the highest mode: below, a real eigenvalue is rounding of 0 */
 #define IS_A_WAVE      1e-6 /* Im lambda over |lambda|: below, the mode does not whirl */
 #define OVERDAMPED     0.05 /* and does not where it decays: the basis does not tell its frequency */
@@ -156,11 +157,8 @@ static void left_by_factor(struct system *s, struct pair *pair)
 
 int pair_left(struct system *s, int side, struct pair *pair)
 {
-    int n = s->size;
-    system_dynamic(s, pair->lambda, side, s->d);
-    for (ptrdiff_t i = 0; i < n; i++) /* singular but for rounding: made regular */
-        s->d[i + i * n] *= 1 + 1e-15;
-    if (complex_factor(n, s->d, s->pivot))
+    system_dynamic(s, pair->lambda * (1 + ASIDE), side, s->d);
+    if (complex_factor(s->size, s->d, s->pivot))
         return 1;
     left_by_factor(s, pair);
     return 0;
@@ -176,7 +174,8 @@ int pair_synchronise(struct system *s, double h, double *speed, struct pair *pai
     double complex *x = s->right, *c = s->left, *y = pair->left;
     memcpy(c, pair->u, (size_t)n * sizeof *c);
     for (int step = 0; step < STEPS; step++) {
-        double complex lambda = growth + I * h * w;
+        double aside = ASIDE * w;
+        double complex lambda = growth + aside + I * h * w;
         system_at(s, w);
         system_dynamic(s, lambda, critical_side(h), s->d);
         multiply(n, 2 * lambda, s->mass, s->c, pair->u, x);
@@ -194,9 +193,9 @@ int pair_synchronise(struct system *s, double h, double *speed, struct pair *pai
         double limit = fabs(dw) > FARTHEST * w ? FARTHEST * w / fabs(dw) : 1;
         for (int i = 0; i < n; i++)
             pair->u[i] = -(x[i] * (ds + I * h * dw) + y[i] * dw);
-        growth += limit * ds;
+        growth += aside + limit * ds;
         w += limit * dw;
-        double change = (fabs(dw) + fabs(ds)) / w;
+        double change = (fabs(dw) + fabs(aside + ds)) / w;
         if (change < WITHIN || (change < 1e-10 && change >= before / 2)) {
             *speed = w;
             pair->lambda = growth + I * h * w;
@@ -217,8 +216,9 @@ static int refine(struct system *s, int side, struct pair *pair)
     double before = INFINITY;
     memcpy(s->left, pair->u, (size_t)n * sizeof *s->left);
     for (int step = 0; step < STEPS; step++) {
-        system_dynamic(s, lambda, side, s->d);
-        multiply(n, 2 * lambda, s->mass, s->c, pair->u, s->right);
+        double complex shift = lambda * (1 + ASIDE);
+        system_dynamic(s, shift, side, s->d);
+        multiply(n, 2 * shift, s->mass, s->c, pair->u, s->right);
         if (complex_factor(n, s->d, s->pivot)) { /* lambda is an eigenvalue to the last bit */
             lambda *= 1 + 1e-15;
             continue;
@@ -227,10 +227,10 @@ static int refine(struct system *s, int side, struct pair *pair)
         double complex scale = inner(n, s->left, s->right);
         if (!(cabs(scale) > 0) || !isfinite(cabs(scale)))
             return 1;
-        lambda -= 1 / scale;
+        double change = cabs(shift - 1 / scale - lambda) / cabs(lambda);
+        lambda = shift - 1 / scale;
         for (int i = 0; i < n; i++)
             pair->u[i] = s->right[i] / scale;
-        double change = 1 / cabs(scale) / cabs(lambda);
         if (change < WITHIN || (change < 1e-10 && change >= before / 2)) { /* the last digits come and go */
             pair->lambda = lambda;
             left_by_factor(s, pair); /* those of the last step are as near as that went */
