@@ -7,6 +7,8 @@
 static const double place[3] = {-0.77459666924148337704, 0, 0.77459666924148337704};
 static const double weight[3] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
 
+#define COVER 0.1 /* of the largest E at a section */
+
 static int motion_new(struct pool *pool, int most, struct motion *motion)
 {
     *motion = (struct motion){0, POOL_ARRAY(pool, int, most), POOL_ARRAY(pool, double, most)};
@@ -43,8 +45,24 @@ static void edge_at(const struct solid_mesh *mesh, int n, double x, double *r, d
     *slope = (x - 0.5) * node[0].r - 2 * x * node[1].r + (x + 0.5) * node[2].r;
 }
 
+/* Whether what is held at a line holds on to the edge from node n to n + 2 of that line: a cover of a softer material gives way.
+ */
+static int carries(const struct rotor *rotor, const struct solid_mesh *mesh, int line, int n)
+{
+    double own = 0, most = 0;
+    for (int slice = line > 0 ? line - 1 : 0; slice <= line && slice < mesh->nslice; slice++)
+        for (int i = mesh->first[slice]; i < mesh->first[slice + 1]; i++) {
+            const struct solid_element *element = &mesh->element[i];
+            double e = rotor->group[element->group].material.e;
+            most = fmax(most, e);
+            own = element->node[slice < line ? 3 : 0] == n ? fmax(own, e) : own;
+        }
+    return own >= COVER * most;
+}
+
 /* In torsion V = r_i A_i at node i: the rotation V/r is that of A = 1 where all A_i are 1, though the axis has no unknown. */
-int motion_of_section(struct pool *pool, const struct solid_mesh *mesh, int line, struct motion *v, struct motion *theta)
+int motion_of_section(struct pool *pool, const struct rotor *rotor, const struct solid_mesh *mesh, int line, struct motion *v,
+                      struct motion *theta)
 {
     const int *nodes = mesh->line + 2 * (ptrdiff_t)line;
     int first = nodes[0], end = nodes[1];
@@ -53,7 +71,7 @@ int motion_of_section(struct pool *pool, const struct solid_mesh *mesh, int line
     if (!status)
         status = motion_new(pool, end - first, theta);
     for (int n = first; n + 2 < end && !status; n += 2)
-        for (int g = 0; g < 3; g++) {
+        for (int g = 0; g < 3 && carries(rotor, mesh, line, n); g++) {
             edge_at(mesh, n, place[g], &r, &slope, shape);
             double w = weight[g] * slope * r;
             area += w;

@@ -486,7 +486,7 @@ static int build_lines(struct pool *pool, struct solid *solid, int *failed)
     const struct rotor *rotor = &solid->rotor;
     int status = ROTID_OK, from, to;
     for (int l = 0; l <= solid->mesh.nslice && !status; l++)
-        status = motion_of_section(pool, &solid->mesh, l, &solid->line[l].v, &solid->line[l].theta);
+        status = motion_of_section(pool, rotor, &solid->mesh, l, &solid->line[l].v, &solid->line[l].theta);
     for (int i = 0; i < rotor->ntierod && !status; i++) {
         *failed = rotor->ngroup + i;
         solid_mesh_member(rotor, &solid->mesh, i, &from, &to);

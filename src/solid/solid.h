@@ -174,11 +174,13 @@ struct motion {
     double *weight; /* [count] */
 };
 
-/* Of the section at a line as a whole: the means over its area, as of a plate that spreads a load and adds no stiffness,
+/* Of the section at a line as a whole: the means over its area, as of a plate that spreads a load and adds no stiffness, without
+ * the covers, whose stated E is below a tenth of the stiffest one there,
  *   v = int (U - V)/2 r dr / int r dr,  theta = int W r^2 dr / int r^3 dr;
  * in torsion v = int V r^2 dr / int r^3 dr, along the axis v = int W r dr / int r dr, and no theta.
  * ROTID_OK or ROTID_ERROR_MEMORY. */
-int motion_of_section(struct pool *pool, const struct solid_mesh *mesh, int line, struct motion *v, struct motion *theta);
+int motion_of_section(struct pool *pool, const struct rotor *rotor, const struct solid_mesh *mesh, int line, struct motion *v,
+                      struct motion *theta);
 
 /* W of a line at a pitch radius as the annulus pitch -+ reach tilts: pitch int W r^2 dr / int r^3 dr, which is theta pitch where
  * the section stays plane; in torsion and along the axis the mean of V/r and W there. A load on a circle would sink in without
