@@ -63,7 +63,7 @@ static int nearest(const struct profile *profile, double t)
     return at;
 }
 
-/* Where the fit with the unknown held at t begins: at the nearest one there is. */
+/* Where the fit with the unknown held at t begins: at the nearest one there is, the best fit of all where that is as near. */
 static const double *start_for(const struct profile *profile, double t)
 {
     int at = profile->count ? nearest(profile, t) : -1;
