@@ -407,15 +407,98 @@ UNIT_TEST(what_is_gone_is_named_the_other_way_round)
     }
 }
 
+/* A fault of the measurement is found in the state that has it, or in both, and put right before the states are compared. */
+UNIT_TEST(faults_of_the_measurement_go_with_the_states_that_have_them)
+{
+#define SOFT "stiffness_local:depth=0.4,z=0.4,width=0.03"
+#define MASS "added_mass:mass=1.5,z=0.7"
+    static const struct {
+        const char *before[2], *after[3];
+        int effects[2];
+        const char *id, *finding[2]; /* of what changed, NULL: nothing; of each state */
+    } pairs[] = {
+        {{SOFT, "sensor_line:flip=1"}, {SOFT, "sensor_line:flip=1", MASS}, {2, 3}, "added_mass", {"sensor_line", "sensor_line"}},
+        {{SOFT, "sensor_line:scale=0.95,shift=0.025"},
+         {SOFT, "sensor_line:scale=0.95,shift=0.025", MASS},
+         {2, 3},
+         "added_mass",
+         {"sensor_line", "sensor_line"}},
+        {{SOFT, "sensor_line:flip=1"}, {SOFT, MASS}, {2, 2}, "added_mass", {"sensor_line", NULL}},
+        {{SOFT, "sensor_gain:sensor=6,gain=3"}, {SOFT}, {2, 1}, NULL, {"sensor_gain", NULL}},
+        {{SOFT, "sensor_sign:sensor=6"}, {SOFT, MASS}, {2, 2}, "added_mass", {"sensor_sign", NULL}},
+        {{SOFT}, {SOFT, MASS, "mode_pairing:double=3"}, {1, 3}, "added_mass", {NULL, "mode_pairing"}},
+    };
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
+        const struct hidden_state states[] = {{"before", "", pairs[i].effects[0], pairs[i].before},
+                                              {"after", "", pairs[i].effects[1], pairs[i].after}};
+        const struct hide_request r = request(6, 13, 1 + 10 * (unsigned)i);
+        rotid_diagnosis *d = diagnose(&r, states, NULL, "before", "after");
+        int findings = 0;
+        for (int s = 0; s < 2; s++)
+            if (pairs[i].finding[s]) {
+                assert_true(findings < d->ndata_findings);
+                assert_string_equal(d->data_findings[findings].id, pairs[i].finding[s]);
+                assert_string_equal(d->data_findings[findings++].state, states[s].name);
+            }
+        assert_int_equal(d->ndata_findings, findings);
+        assert_string_equal(d->sensors[0].state, "after");
+        assert_non_null(
+            strstr(d->verdict.sentence, pairs[i].finding[0] ? "In the measurement of state before, " : "of state after, "));
+        if (pairs[i].id)
+            assert_named(d, pairs[i].id, NULL, "mass", 1.5);
+        else
+            assert_int_equal(d->verdict.kind, ROTID_ADEQUATE);
+        rotid_diagnosis_free(d);
+    }
+}
+
+/* A support that is stiff in both states counts for neither among the rigid-body motions that modes are numbered above. */
+UNIT_TEST(modes_have_the_same_numbers_in_both_states)
+{
+    static const char *const stiff[] = {"support:at=front,factor=1000"};
+    static const struct hidden_state states[] = {{"before", "", 1, stiff}, {"after", "", 1, stiff}};
+    const struct hide_request r = request(6, 0, 3);
+    rotid_diagnosis *d = diagnose(&r, states, NULL, "before", "after");
+    assert_int_equal(d->verdict.kind, ROTID_ADEQUATE);
+    assert_true(d->verdict.p_value > 0.01);
+    rotid_diagnosis_free(d);
+}
+
+/* Noise two and a half times the stated one is no change of the catalogue, nor that nothing shows. */
+UNIT_TEST(what_scatters_more_than_stated_is_said_to)
+{
+    static const struct hidden_state states[] = {{"before", "", 0, NULL}, {"after", "", 0, NULL}};
+    struct hide_request r = request(4, 5, 6);
+    double times = 0;
+    r.stated_frequency_noise = 0.001;
+    r.frequency_noise = 0.0025;
+    rotid_diagnosis *d = diagnose(&r, states, NULL, "before", "after");
+    assert_int_equal(d->verdict.kind, ROTID_ADEQUATE);
+    assert_true(d->verdict.p_value < 1e-6);
+    assert_int_equal(sscanf(d->verdict.sentence, "Between before and after the data differ by %lf times", &times), 1);
+    assert_true(times > 1.5 && times < 4);
+    assert_non_null(strstr(d->verdict.sentence, "nothing changed and the noise is larger than stated"));
+    rotid_diagnosis_free(d);
+}
+
 /* The states of a deck, and the job that asks what changed from one to the other. */
+static void settle(const struct states *read, struct job *out)
+{
+    const struct diagnose_options options = {.threads = 1, .before = "before", .after = "after"};
+    struct message_list notes;
+    struct settled settled;
+    message_open(&notes, &test_pool);
+    assert_status(changed_settle(&test_pool, read, &options, NULL, &notes, &settled), ROTID_OK);
+    assert_status(changed_job(&test_pool, &settled, 0, NULL, &notes, out), ROTID_OK);
+}
+
 static void read_changed(const char *text, struct states *read, struct job *out)
 {
     const struct deck_memory memory = {"deck", strlen(text), text, NULL};
-    const struct diagnose_options options = {.threads = 1};
     struct message_list notes;
     message_open(&notes, &test_pool);
     assert_status(deck_read_states(&test_pool, "deck", &memory, 0, NULL, &notes, read), ROTID_OK);
-    assert_status(changed_job(&test_pool, read, "before", "after", &options, NULL, &notes, out), ROTID_OK);
+    settle(read, out);
 }
 
 /* The data of the second state by the equations of changed.h, beside the modes of the model that is held. */
@@ -459,7 +542,6 @@ POOL_TEST(what_was_measured_once_takes_nothing_from_the_rest)
     static const char *const dense[] = {"joint:at=core.end,flexibility=3e-9", "density:group=left,factor=1.1"};
     static const struct hidden_state states[] = {{"before", "", 1, dense}, {"after", "", 1, dense}};
     const struct hide_request r = request(MODES, SENSORS, 1300);
-    const struct diagnose_options options = {.threads = 1};
     char message[300], *text = hidden_states_deck(&r, 2, states, NULL, message, sizeof message);
     const struct deck_memory memory = {"deck", strlen(text), text, NULL};
     struct message_list notes;
@@ -472,7 +554,7 @@ POOL_TEST(what_was_measured_once_takes_nothing_from_the_rest)
         if (s >= COMMON)
             read.state[1].job.measurement.shape[s + SENSORS] = NAN;
     }
-    assert_status(changed_job(&test_pool, &read, "before", "after", &options, NULL, &notes, &out), ROTID_OK);
+    settle(&read, &out);
     for (int k = 0; k < MODES; k++) {
         assert_true(out.measurement.frequency_std[k] >= sqrt(2) * 0.000999);
         assert_true(out.measurement.frequency_std[k] < 1.1 * sqrt(2) * 0.001);
@@ -504,6 +586,20 @@ POOL_TEST(a_shared_unknown_is_held_in_every_group)
     print_message("left %g, right %g\n", left, right);
     assert_true(left < 2e11 && left == right);
     assert_close(out.rotor.group[1].material.e, 2.1e11, 0, 0);
+}
+
+/* Too few data for judging each state by itself: they are compared as they stand. */
+POOL_TEST(states_that_cannot_be_settled_are_compared_as_they_stand)
+{
+#define FEW "*MODES, COUNT=ELASTIC\n1, 420\n2, 785\n"
+    struct states read;
+    struct job out;
+    read_changed(ROTOR
+                 "left.E, 1e10, 1e12, 1.9e11\nleft.G, 1e9, 4e11, 7e10\nright.E, 1e10, 1e12, 1.9e11\n*NOISE, FREQUENCY=0.001\n"
+                 "*STATE, NAME=before\n" FEW "*STATE, NAME=after\n" FEW,
+                 &read, &out);
+    assert_int_equal(out.measurement.nmode, 2);
+    assert_int_equal(out.unknowns.nparameter, 0);
 }
 
 /* In two states that are alike a cause of both moves the rows of both alike. */

@@ -5,6 +5,13 @@
 
 #include "base/base.h"
 
+/* Before a verdict. */
+static const rotid_diagnosis nothing = {
+    .verdict = {.kind = -1, .p_value = NAN},
+    .gain =
+        {{NAN, NAN}, {NAN, NAN}, {NAN, NAN}, {NAN, NAN}, {NAN, NAN}, {NAN, NAN}, {NAN, NAN}, {NAN, NAN}, {NAN, NAN}, {NAN, NAN}},
+    .noise = {.frequency = NAN, .shape = NAN}};
+
 /* Whether an effect may stay in a rotor beside another one of its kind at its target: factors of fields over z multiply, masses
  * and springs at points add up. */
 static int effect_can_stay(const struct effect *effect)
@@ -23,58 +30,87 @@ static int can_stay(const struct refit *refit, int before)
     return all;
 }
 
-/* *out := the job, whose FIT is that of a diagnosis, with the likeliest explanation of its data among those whose effects can
- * stay, or the job itself where that is none, or the data do not suffice to judge a model by. Statuses of memory and cancellation
- * only. */
-static int imitate(struct pool *pool, const struct job *job, const struct diagnose_options *options,
-                   const rotid_environment *environment, struct job *out)
+/* *out := the job of an engine, paired, with the likeliest explanation of its data among those whose effects can stay. */
+static void imitate(const struct engine *engine, const struct posterior *p, struct job *out)
 {
-    struct state state;
+    int item = 0;
+    struct segment *segment = out->rotor.segment; /* as fine as the whole needs it, which is seen later */
+    while (item < p->count && (p->item[item].something_else ||
+                               (p->item[item].nmember && !can_stay(p->item[item].refit, engine->job->rotor.neffect))))
+        item++;
+    const struct job *likeliest = item < p->count ? &explanation_states(engine, &p->item[item])->state->job : engine->job;
+    out->rotor = likeliest->rotor;
+    out->rotor.segment = segment;
+    out->rotor.nsensor = engine->job->rotor.nsensor; /* where faults are not sure, those of the deck */
+    out->rotor.sensor = engine->job->rotor.sensor;
+    out->unknowns = likeliest->unknowns;
+    out->measurement = engine->job->measurement;
+    out->measurement.number = engine->number;
+    out->measurement.paired = 1;
+}
+
+/* The findings about a state behind those of the states before it. */
+static int take_findings(struct engine *engine, const rotid_diagnosis *found)
+{
+    rotid_diagnosis *out = &engine->out->result;
+    for (int i = 0; i < found->ndata_findings; i++) {
+        int status = data_add_finding(engine, &found->data_findings[i]);
+        if (status)
+            return status;
+    }
+    for (int i = 0; i < found->nnumerical_findings; i++) {
+        rotid_numerical_finding *finding = &out->numerical_findings[out->nnumerical_findings++];
+        *finding = found->numerical_findings[i];
+        finding->state = engine->state;
+    }
+    return ROTID_OK;
+}
+
+/* The state that the engine looks at, by an engine of its own. imitated: in, its job in the deck; NULL: not asked for */
+static int settle(struct engine *engine, struct job *imitated)
+{
+    struct diagnosis *out = engine->out, alone = {.result.steps = out->result.steps, .result.nsteps = out->result.nsteps};
+    struct engine own = *engine;
     struct message_list quiet;
-    struct job judged = *job;
-    judged.models = models_for_run(pool, job->models);
-    if (!judged.models)
+    struct state state;
+    const struct states only = states_of(engine->job, &state);
+    message_open(&quiet, engine->pool);
+    own.out = &alone;
+    own.notes = &quiet;
+    own.nown = only.nparameter;
+    own.nprepared = own.coloured = 0;
+    own.fit = NULL;
+    own.deck_start = parameter_starts(engine->pool, only.nparameter, only.bounds);
+    alone.result.numerical_findings = POOL_ARRAY(engine->pool, rotid_numerical_finding, NUMERICAL_FINDINGS);
+    if (!own.deck_start || !alone.result.numerical_findings)
         return ROTID_ERROR_MEMORY;
-    const struct states only = states_of(&judged, &state);
-    struct diagnosis scratch = {.result.steps = POOL_ARRAY(pool, rotid_step, MOST_STEPS),
-                                .result.numerical_findings = POOL_ARRAY(pool, rotid_numerical_finding, NUMERICAL_FINDINGS)};
-    struct engine engine = {.pool = pool,
-                            .threads = options->threads > 0 ? options->threads : 1,
-                            .environment = environment,
-                            .notes = &quiet,
-                            .out = &scratch,
-                            .clock = clock_seconds()};
+    int status = engine_take_states(&own, &only);
+    if (!status)
+        status = base_prepare(&own);
     struct diagnosis_round round;
     struct round_result result = {0};
-    struct posterior *p = &scratch.posterior;
-    int status = scratch.result.steps && scratch.result.numerical_findings ? ROTID_OK : ROTID_ERROR_MEMORY, item = 0;
-    message_open(&quiet, pool);
     if (!status)
-        status = data_prepare(&engine, &only);
-    if (!status)
-        status = base_prepare(&engine);
-    if (!status)
-        status = round_run(&engine, 0, &round, &result, p);
-    *out = *job;
-    while (!status && item < p->count &&
-           (p->item[item].something_else || (p->item[item].nmember && !can_stay(p->item[item].refit, engine.job->rotor.neffect))))
-        item++;
-    if (!status && item < p->count) {
-        const struct job *likeliest = &explanation_states(&engine, &p->item[item])->state->job;
-        out->rotor = likeliest->rotor;
-        out->rotor.segment = job->rotor.segment; /* as fine as the whole needs it, which is seen later */
-        out->unknowns = likeliest->unknowns;
-    }
+        status = round_run(&own, 1, &round, &result, &alone.posterior);
+    if (!status && imitated)
+        imitate(&own, &alone.posterior, imitated);
     round_free(&result);
-    models_end_run(pool, judged.models, job->models);
-    if (engine.fit != scratch.base.fit)
-        rotid_fit_free(engine.fit);
-    rotid_fit_free(scratch.base.fit);
-    return status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED ? status : ROTID_OK;
+    if (own.fit != alone.base.fit)
+        rotid_fit_free(own.fit);
+    rotid_fit_free(alone.base.fit);
+    out->result.nsteps = alone.result.nsteps;
+    engine->clock = own.clock;
+    if (status)
+        return status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED ? status : ROTID_OK;
+    engine->job->rotor = own.job->rotor;
+    engine->job->measurement = own.job->measurement;
+    engine->coloured |= own.coloured;
+    engine->nfault = own.nfault;
+    engine->fault = own.fault;
+    return take_findings(engine, &alone.result);
 }
 
 #define LEAST_LEFT 3    /* modes: fewer say too little */
-#define SAME_PLACE 1e-6 /* of the length: two positions in two states of a deck that are one */
+#define SAME_PLACE 0.01 /* of the length: what a model misses is the same there */
 
 static const struct state *find(const struct states *states, const char *name, struct message_list *notes)
 {
@@ -105,54 +141,46 @@ static int suffices(const struct state *state, struct message_list *notes)
     return 0;
 }
 
-/* A mode whose number the shape of another one claims is left out, as a diagnosis does: it tells nothing of what changed. */
-static void leave_out_clash(struct job *job, int k, const char *name, struct message_list *notes)
+/* Each of the two states as a deck that is this one alone; as it stands where the data do not suffice. */
+static int settle_both(struct engine *engine, const struct states *given, struct settled *out)
 {
-    message_warn(notes, "measured mode %d of state %s at %.6g Hz has the shape of no mode of the model and is left out",
-                 job->measurement.number[k], name, job->measurement.frequency_hz[k]);
-    data_remove_mode(job, k);
-}
-
-/* identify_run, without the modes that clash. */
-static int fit_paired(struct pool *pool, struct job *job, const char *name, const rotid_environment *environment,
-                      struct message_list *notes, struct message_list *quiet, struct identification *found)
-{
-    int status = identify_run(pool, job, 0, environment, quiet, found);
-    while (status == ROTID_ERROR_UNPAIRED && job->measurement.nmode > LEAST_LEFT) {
-        leave_out_clash(job, found->compared.clash, name, notes);
-        message_open(quiet, pool);
-        status = identify_run(pool, job, 0, environment, quiet, found);
+    int status = data_prepare(engine, given);
+    for (int s = 0; s < 2 && !status; s++) {
+        struct job *job = &out->state[s].job;
+        engine_look_at(engine, s);
+        out->imitated[s].measurement = engine->job->measurement;
+        status = settle(engine, &out->imitated[s]);
+        job->measurement = engine->job->measurement;
+        job->rotor.nsensor = engine->job->rotor.nsensor;
+        job->rotor.sensor = engine->job->rotor.sensor;
+        job->rotor.settled_rigid = engine->job->rotor.settled_rigid;
     }
-    return status;
+    return status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED ? status : ROTID_OK;
 }
 
 /* The unknowns of `before` as the likelihood of the full model has them, on a mesh without error: the shapes of the second state
  * are judged on the same. */
-static int fit_before(struct pool *pool, const struct state *before, const struct diagnose_options *options,
-                      const rotid_environment *environment, struct message_list *notes, struct job *job,
-                      struct identification *found)
+static int fit_before(struct pool *pool, const char *before, const rotid_environment *environment, struct message_list *notes,
+                      struct job *job, struct identification *found)
 {
     struct message_list quiet;
     message_open(&quiet, pool);
-    *job = before->job;
     job->options.fit.functional = ROTID_LIKELIHOOD;
     job->options.fit.reduction = ROTID_REDUCTION_NONE;
     job->options.fit.derivative = ROTID_NELSON;
-    int status = imitate(pool, job, options, environment, job);
+    int status = data_copy(pool, job);
     if (!status)
-        status = data_copy(pool, job);
-    if (!status)
-        status = fit_paired(pool, job, before->name, environment, notes, &quiet, found);
+        status = identify_run(pool, job, 0, environment, &quiet, found);
     const struct segment *coarse = job->rotor.segment;
     if (!status && found->fit->status != ROTID_STOP_CANCELLED)
         status = base_refine(pool, job, base_halvings(job, found->compared.number, &found->spectrum));
     if (!status && job->rotor.segment != coarse) {
         rotid_fit_free(found->fit);
         found->fit = NULL;
-        status = fit_paired(pool, job, before->name, environment, notes, &quiet, found);
+        status = identify_run(pool, job, 0, environment, &quiet, found);
     }
     for (size_t i = 0; i < quiet.count && status; i++)
-        message_add(notes, quiet.item[i].severity, NULL, 0, 0, "%s (state %s)", quiet.item[i].text, before->name);
+        message_add(notes, quiet.item[i].severity, NULL, 0, 0, "%s (state %s)", quiet.item[i].text, before);
     if (!status && found->fit->status == ROTID_STOP_CANCELLED)
         status = ROTID_STOP_CANCELLED;
     return status;
@@ -221,7 +249,7 @@ static double dot(int n, const double *a, const double *b) /* over what both hav
     return sum;
 }
 
-/* b, its noise and phi_b at the sensors of `after`, NaN where `before` has none of that id at that place. */
+/* b, its noise and phi_b at the sensors of `after`, NaN where `before` has none at that place. */
 static void gather(const struct job *before, const struct identification *found, int j, const struct rotor *after, double *b,
                    double *std, double *phi)
 {
@@ -230,11 +258,13 @@ static void gather(const struct job *before, const struct identification *found,
     ptrdiff_t measured = (ptrdiff_t)j * nsensor, mode = (ptrdiff_t)(found->compared.number[j] - 1) * spectrum->nmaster;
     double absolute = largest_magnitude(nsensor, before->measurement.shape + measured);
     for (int i = 0; i < after->nsensor; i++) {
+        double nearest = SAME_PLACE * rotor_length(after);
         b[i] = NAN;
         for (int s = 0; s < nsensor; s++) {
-            const struct sensor *a = &after->sensor[i], *other = &before->rotor.sensor[s];
-            if (a->id != other->id || fabs(a->position - other->position) > SAME_PLACE * rotor_length(after))
+            double away = fabs(after->sensor[i].position - before->rotor.sensor[s].position);
+            if (!(away < nearest) || !isfinite(before->measurement.shape[measured + s]))
                 continue;
+            nearest = away;
             b[i] = before->measurement.shape[measured + s];
             std[i] = before->measurement.shape_std[measured + s] * absolute;
             phi[i] = spectrum->shape[mode + s];
@@ -242,14 +272,14 @@ static void gather(const struct job *before, const struct identification *found,
     }
 }
 
-/* The part of a that is not along b, squared, over what noise makes of it; a share of a. std: of a, absolute */
-static double unlike(int n, const double *a, double std, const double *b, const double *b_std)
+/* The part of a that is not along b, squared, over what noise makes of it; a share of a. Noise is absolute. */
+static double unlike(int n, const double *a, const double *std, const double *b, const double *b_std)
 {
     double ab = dot(n, a, b), bb = dot(n, b, b), aa = 0, noise = 0;
     for (int i = 0; i < n; i++)
         if (isfinite(a[i]) && isfinite(b[i])) {
             aa += a[i] * a[i];
-            noise += std * std + ab / bb * ab / bb * b_std[i] * b_std[i];
+            noise += std[i] * std[i] + ab / bb * ab / bb * b_std[i] * b_std[i];
         }
     return fmax(0, aa - ab * ab / bb - noise) / aa;
 }
@@ -272,7 +302,9 @@ static void correct_shape(const struct job *before, const struct identification 
         return;
     }
     double g = dot(n, a, b) / dot(n, b, b), square = 0, along = 0;
-    *other += unlike(n, a, std[0] * was, b, b_std);
+    for (int i = 0; i < n; i++)
+        std[i] *= was;
+    *other += unlike(n, a, std, b, b_std);
     for (int i = 0; i < n; i++)
         if (isfinite(a[i]) && isfinite(b[i])) {
             square += phi[i] * phi[i];
@@ -280,7 +312,7 @@ static void correct_shape(const struct job *before, const struct identification 
         }
     for (int i = 0; i < n; i++) {
         double missed = g * (b[i] - along / square * phi[i]);
-        std[i] = hypot(hypot(std[i] * was, g * b_std[i]), *other > 0 && isfinite(missed) ? sqrt(*other) * missed : 0);
+        std[i] = hypot(hypot(std[i], g * b_std[i]), *other > 0 && isfinite(missed) ? sqrt(*other) * missed : 0);
         a[i] -= missed;
     }
     double is = largest_magnitude(n, a);
@@ -315,7 +347,10 @@ static int correct(struct pool *pool, const struct job *before, const struct ide
     if (!status)
         status = comparison_make(pool, job, &spectrum, &quiet, &compared);
     while (status == ROTID_ERROR_UNPAIRED && job->measurement.nmode > LEAST_LEFT) {
-        leave_out_clash(job, compared.clash, name, notes);
+        int k = compared.clash; /* left out, as a diagnosis does: it tells nothing of what changed */
+        message_warn(notes, "measured mode %d of state %s at %.6g Hz has the shape of no mode of the model and is left out",
+                     job->measurement.number[k], name, job->measurement.frequency_hz[k]);
+        data_remove_mode(job, k);
         message_open(&quiet, pool);
         status = comparison_make(pool, job, &spectrum, &quiet, &compared);
     }
@@ -348,25 +383,19 @@ static int correct(struct pool *pool, const struct job *before, const struct ide
     return ROTID_OK;
 }
 
-int changed_job(struct pool *pool, const struct states *states, const char *before, const char *after,
-                const struct diagnose_options *options, const rotid_environment *environment, struct message_list *notes,
-                struct job *out)
+int changed_job(struct pool *pool, const struct settled *settled, int before, const rotid_environment *environment,
+                struct message_list *notes, struct job *out)
 {
-    const struct state *first = find(states, before, notes), *second = first ? find(states, after, notes) : NULL;
+    const struct state *first = &settled->state[before], *second = &settled->state[!before];
     struct identification found = {0};
-    struct job job;
-    if (second == first && second)
-        message_add(notes, SEVERITY_ERROR, states->state->job.deck, 1, 1, "state %s is given twice, expected two states", before);
-    if (!second || second == first || !suffices(first, notes) || !suffices(second, notes))
-        return ROTID_ERROR_ARGUMENT;
+    struct job job = settled->imitated[before];
     *out = second->job;
     out->measurement.has_noise_floor = 1; /* where a mode is another one it holds more than scatter */
     out->measurement.raw = NULL;          /* the corrections of the deck are applied, and no deck is written of this */
     out->measurement.ncorrection = 0;
-    out->measurement.point_frequency_hz = out->measurement.point_frequency_std = NULL; /* an accelerometer loads both states */
     int status = data_copy(pool, out);
     if (!status)
-        status = fit_before(pool, first, options, environment, notes, &job, &found);
+        status = fit_before(pool, first->name, environment, notes, &job, &found);
     if (!status)
         status = hold(pool, first, found.fit->x, second, out);
     if (!status)
@@ -379,64 +408,6 @@ int changed_job(struct pool *pool, const struct states *states, const char *befo
     return status;
 }
 
-/* The findings about a state behind those of the states before it. */
-static int take_findings(struct engine *engine, const rotid_diagnosis *found)
-{
-    rotid_diagnosis *out = &engine->out->result;
-    for (int i = 0; i < found->ndata_findings; i++) {
-        int status = data_add_finding(engine, &found->data_findings[i]);
-        if (status)
-            return status;
-    }
-    for (int i = 0; i < found->nnumerical_findings; i++) {
-        rotid_numerical_finding *finding = &out->numerical_findings[out->nnumerical_findings++];
-        *finding = found->numerical_findings[i];
-        finding->state = engine->state;
-    }
-    return ROTID_OK;
-}
-
-/* The state that the engine looks at, by an engine of its own. */
-static int settle(struct engine *engine)
-{
-    struct diagnosis *out = engine->out, alone = {.result.steps = out->result.steps, .result.nsteps = out->result.nsteps};
-    struct engine own = *engine;
-    struct message_list quiet;
-    struct state state;
-    const struct states only = states_of(engine->job, &state);
-    message_open(&quiet, engine->pool);
-    own.out = &alone;
-    own.notes = &quiet;
-    own.nown = only.nparameter;
-    own.nprepared = own.coloured = 0;
-    own.fit = NULL;
-    own.deck_start = parameter_starts(engine->pool, only.nparameter, only.bounds);
-    alone.result.numerical_findings = POOL_ARRAY(engine->pool, rotid_numerical_finding, NUMERICAL_FINDINGS);
-    if (!own.deck_start || !alone.result.numerical_findings)
-        return ROTID_ERROR_MEMORY;
-    int status = engine_take_states(&own, &only);
-    if (!status)
-        status = base_prepare(&own);
-    struct diagnosis_round round;
-    struct round_result result = {0};
-    if (!status)
-        status = round_run(&own, 1, &round, &result, &alone.posterior);
-    round_free(&result);
-    if (own.fit != alone.base.fit)
-        rotid_fit_free(own.fit);
-    rotid_fit_free(alone.base.fit);
-    out->result.nsteps = alone.result.nsteps;
-    engine->clock = own.clock;
-    if (status)
-        return status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED ? status : ROTID_OK;
-    engine->job->rotor = own.job->rotor;
-    engine->job->measurement = own.job->measurement;
-    engine->coloured |= own.coloured;
-    engine->nfault = own.nfault;
-    engine->fault = own.fault;
-    return take_findings(engine, &alone.result);
-}
-
 /* Pairing, channels, noise, accelerometer and mesh of every state as of a deck that is this state alone; what is found goes with
  * the name of the state to the findings, and the states are judged without. A state whose data do not suffice to judge a model
  * by stays as it is. Statuses of memory and cancellation only. */
@@ -445,7 +416,7 @@ static int settle_states(struct engine *engine)
     int status = ROTID_OK;
     for (int s = 0; s < engine->states.nstate && !status; s++) {
         engine_look_at(engine, s);
-        status = settle(engine);
+        status = settle(engine, NULL);
     }
     engine_look_at(engine, 0);
     return status;
@@ -507,8 +478,8 @@ static int run(struct engine *engine, const struct states *states)
     return status ? status : finalise(engine);
 }
 
-/* The same with models for the run. */
-static int run_with_models(struct engine *engine, const struct states *given)
+/* The same with models for the run, or settle_both where `settled` is not NULL. */
+static int run_with_models(struct engine *engine, const struct states *given, struct settled *settled)
 {
     struct states states;
     int begun = 0, status = states_copy(engine->pool, given, &states);
@@ -518,22 +489,52 @@ static int run_with_models(struct engine *engine, const struct states *given)
         status = job->models ? ROTID_OK : ROTID_ERROR_MEMORY;
     }
     if (!status)
-        status = run(engine, &states);
+        status = settled ? settle_both(engine, &states, settled) : run(engine, &states);
     for (int s = 0; s < begun; s++)
         if (states.state[s].job.models)
             models_end_run(engine->pool, states.state[s].job.models, given->state[s].job.models);
     return status;
 }
 
-/* Before a verdict. */
-static const rotid_diagnosis nothing = {
-    .verdict = {.kind = -1, .p_value = NAN},
-    .gain =
-        {{NAN, NAN}, {NAN, NAN}, {NAN, NAN}, {NAN, NAN}, {NAN, NAN}, {NAN, NAN}, {NAN, NAN}, {NAN, NAN}, {NAN, NAN}, {NAN, NAN}},
-    .noise = {.frequency = NAN, .shape = NAN}};
+int changed_settle(struct pool *pool, const struct states *states, const struct diagnose_options *options,
+                   const rotid_environment *environment, struct message_list *notes, struct settled *out)
+{
+    const struct state *first = find(states, options->before, notes),
+                       *second = first ? find(states, options->after, notes) : NULL;
+    struct message_list quiet;
+    struct diagnosis found = {.result = nothing};
+    struct engine engine = {.pool = pool,
+                            .threads = options->threads > 0 ? options->threads : 1,
+                            .environment = environment,
+                            .notes = &quiet,
+                            .out = &found,
+                            .clock = clock_seconds()};
+    if (second == first && second)
+        message_add(notes, SEVERITY_ERROR, states->state->job.deck, 1, 1, "state %s is given twice, expected two states",
+                    options->before);
+    if (!second || second == first || !suffices(first, notes) || !suffices(second, notes))
+        return ROTID_ERROR_ARGUMENT;
+    message_open(&quiet, pool);
+    *out = (struct settled){.state = {*first, *second}};
+    for (int s = 0; s < 2; s++) { /* an accelerometer loads both states */
+        struct job_measurement *m = &out->state[s].job.measurement;
+        m->point_frequency_hz = m->point_frequency_std = NULL;
+        out->imitated[s] = out->state[s].job;
+    }
+    found.result.steps = POOL_ARRAY(pool, rotid_step, MOST_STEPS);
+    found.result.numerical_findings = POOL_ARRAY(pool, rotid_numerical_finding, 2 * NUMERICAL_FINDINGS);
+    if (!found.result.steps || !found.result.numerical_findings)
+        return ROTID_ERROR_MEMORY;
+    const struct states both = {.nstate = 2, .state = out->state, .nparameter = states->nparameter, .bounds = states->bounds};
+    int status = run_with_models(&engine, &both, out);
+    out->found = found.result;
+    return status;
+}
 
+/* begun: what was found before. */
 static int diagnose(struct pool *pool, const struct states *states, const struct diagnose_options *options,
-                    const rotid_environment *environment, struct message_list *notes, struct diagnosis *out)
+                    const rotid_diagnosis *begun, const rotid_environment *environment, struct message_list *notes,
+                    struct diagnosis *out)
 {
     struct engine engine = {.pool = pool,
                             .threads = options->threads > 0 ? options->threads : 1,
@@ -544,16 +545,17 @@ static int diagnose(struct pool *pool, const struct states *states, const struct
                             .out = out,
                             .clock = clock_seconds()};
     engine.user_reduction = states->state->job.options.fit.reduction;
-    *out = (struct diagnosis){.result = nothing, .last = POOL_NEW(pool, struct round_result)};
+    *out = (struct diagnosis){.result = *begun, .last = POOL_NEW(pool, struct round_result)};
     out->result.before = options->before;
     out->result.after = options->after;
-    out->result.steps = POOL_ARRAY(pool, rotid_step, MOST_STEPS);
-    out->result.numerical_findings = POOL_ARRAY(pool, rotid_numerical_finding, NUMERICAL_FINDINGS * states->nstate);
+    out->result.steps = POOL_COPY(pool, begun->steps, begun->nsteps, MOST_STEPS);
+    out->result.numerical_findings =
+        POOL_COPY(pool, begun->numerical_findings, begun->nnumerical_findings, NUMERICAL_FINDINGS * states->nstate);
     if (!out->result.steps || !out->result.numerical_findings || !out->last)
         return ROTID_ERROR_MEMORY;
     int status = states_copy(pool, states, &out->given);
     if (!status)
-        status = run_with_models(&engine, states);
+        status = run_with_models(&engine, states, NULL);
     if (engine.fit != out->base.fit)
         rotid_fit_free(engine.fit);
     if (out->judged.nstate)
@@ -572,20 +574,21 @@ static int diagnose(struct pool *pool, const struct states *states, const struct
     return status;
 }
 
-/* What `after` has and `before` has not. */
-static int diagnose_changed(struct pool *pool, const struct states *states, const struct diagnose_options *options,
+/* What the other state has and `before`, 0 or 1, has not. */
+static int diagnose_changed(struct pool *pool, const struct settled *settled, int before, const struct diagnose_options *options,
                             const rotid_environment *environment, struct message_list *notes, struct diagnosis *out)
 {
-    struct job job;
     struct state state;
+    struct job job;
     *out = (struct diagnosis){.result = nothing};
-    int status = changed_job(pool, states, options->before, options->after, options, environment, notes, &job);
+    int status = changed_job(pool, settled, before, environment, notes, &job);
     if (status == ROTID_STOP_CANCELLED) {
         out->result.interrupted = 1;
         return ROTID_OK;
     }
     const struct states only = states_of(&job, &state);
-    return status ? status : diagnose(pool, &only, options, environment, notes, out);
+    state.name = settled->state[!before].name;
+    return status ? status : diagnose(pool, &only, options, &settled->found, environment, notes, out);
 }
 
 #define LIKELIER 3 /* ln: of the explanation of one order of the states beside that of the other */
@@ -600,7 +603,7 @@ static const struct explanation *named(const struct diagnosis *d)
 /* What `before` has and `after` has not, as a joint that was tightened, is nothing that a mass or a joint of `after` explains,
  * both of one sign, and other causes imitate that. The states are compared the other way round then, where that explains them
  * better. */
-static int diagnose_gone(struct pool *pool, const struct states *states, const struct diagnose_options *options,
+static int diagnose_gone(struct pool *pool, const struct settled *settled, const struct diagnose_options *options,
                          const rotid_environment *environment, struct message_list *notes, struct diagnosis *out)
 {
     struct diagnose_options other = *options;
@@ -609,7 +612,7 @@ static int diagnose_gone(struct pool *pool, const struct states *states, const s
     message_open(&quiet, pool);
     other.before = options->after;
     other.after = options->before;
-    int status = diagnose_changed(pool, states, &other, environment, &quiet, &gone);
+    int status = diagnose_changed(pool, settled, 1, &other, environment, &quiet, &gone);
     if (status == ROTID_ERROR_MEMORY || pool->out_of_memory) {
         if (!status)
             diagnose_free(&gone);
@@ -636,11 +639,18 @@ static int diagnose_gone(struct pool *pool, const struct states *states, const s
 int diagnose_states(struct pool *pool, const struct states *states, const struct diagnose_options *options,
                     const rotid_environment *environment, struct message_list *notes, struct diagnosis *out)
 {
+    struct settled settled;
     if (!options->before)
-        return diagnose(pool, states, options, environment, notes, out);
-    int status = diagnose_changed(pool, states, options, environment, notes, out);
+        return diagnose(pool, states, options, &nothing, environment, notes, out);
+    *out = (struct diagnosis){.result = nothing};
+    int status = changed_settle(pool, states, options, environment, notes, &settled);
+    if (status == ROTID_STOP_CANCELLED)
+        out->result.interrupted = 1;
+    if (status)
+        return out->result.interrupted ? ROTID_OK : status;
+    status = diagnose_changed(pool, &settled, 0, options, environment, notes, out);
     const struct explanation *lead = !status && !out->result.interrupted && out->posterior.count ? out->posterior.item : NULL;
-    return lead && (lead->nmember || lead->something_else) ? diagnose_gone(pool, states, options, environment, notes, out)
+    return lead && (lead->nmember || lead->something_else) ? diagnose_gone(pool, &settled, options, environment, notes, out)
                                                            : status;
 }
 

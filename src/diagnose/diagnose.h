@@ -3,7 +3,7 @@
 
 /* Diagnosis: whether the model explains the data and, if it does not, which cause of the catalogue (src/diagnose/causes) does.
  * In: states of a deck (struct states). Out: struct diagnosis: verdict, causes, extended model, gain, limits.
- * diagnose.c (diagnose_states) runs the steps on struct engine (engine.c); changed_job there: what changed between two states.
+ * diagnose.c (diagnose_states) runs the steps on struct engine (engine.c); changed_settle, changed_job there: what changed.
  *
  *   1 data       data.c (data_prepare): copies, assumed noise; correct.c (data_correct): takes a fault out of the data
  *   2 base       base.c (base_prepare): fit of the full model, mesh refined; accelerometer.c: mass of a roving one
@@ -553,18 +553,29 @@ int base_note_reduction(struct engine *engine);
 /* Residuals of the base by mode and by sensor. */
 int base_residuals(struct engine *engine);
 
-/* What changed between two states: the unknowns and what imitates the errors of the model are fitted to the first, what the
- * model still misses there is taken out of the data of the second, and the second is diagnosed with the unknowns held. An error
- * of the model that both states have is in neither. *out := the job of state `after` with the unknowns that it shares held at
- * what fits `before`, beside effects that imitate what else is there. Its modes are those that both states have, with the
- * frequencies f_a p_b/f_b, p_b what the fitted model predicts for f_b on a mesh without error, and with the shapes a - g (b - s
- * phi_b) at the sensors that both have, s and g the least-squares scales of the model's shape to b and of b to a. The noise of
- * both adds in squares, and so does what is missed times how much the mode is another one in both, d, d^2 = (2 ln f_a/f_b)^2 + 1
- * - MAC(a, b) less what noise makes of that: what the model misses of a mode moves with it. ROTID_ERROR_ARGUMENT where a name is
- * none of a state, or the data of one do not suffice (the list says what was expected); statuses of identify_run. */
-int changed_job(struct pool *pool, const struct states *states, const char *before, const char *after,
-                const struct diagnose_options *options, const rotid_environment *environment, struct message_list *notes,
-                struct job *out);
+/* What changed between two states: each is settled as a deck that is this one alone, the unknowns and what imitates the errors of
+ * the model are fitted to the first, what the model still misses there is taken out of the data of the second, and the second is
+ * diagnosed with the unknowns held. An error of the model that both states have is in neither. */
+
+struct settled {
+    struct state state[2];  /* as in the deck, their data without the faults of the measurement */
+    struct job imitated[2]; /* the same with effects that imitate the errors of the model */
+    rotid_diagnosis found;  /* steps and findings, which go with the names of the states; the rest is nothing */
+};
+
+/* options->before and after, in this order. ROTID_ERROR_ARGUMENT where a name is none of a state, or the data of one do not
+ * suffice (the list says what was expected); statuses of memory and cancellation. */
+int changed_settle(struct pool *pool, const struct states *states, const struct diagnose_options *options,
+                   const rotid_environment *environment, struct message_list *notes, struct settled *out);
+
+/* *out := the job of the other state of the two with the unknowns that it shares held at what fits `before`, 0 or 1, beside
+ * effects that imitate what else is there. Its modes are those that both states have, with the frequencies f_a p_b/f_b, p_b what
+ * the fitted model predicts for f_b on a mesh without error, and with the shapes a - g (b - s phi_b) at the places where both
+ * have sensors, s and g the least-squares scales of the model's shape to b and of b to a. The noise of both adds in squares, and
+ * so does what is missed times how much the mode is another one in both, d, d^2 = (2 ln f_a/f_b)^2 + 1 - MAC(a, b) less what
+ * noise makes of that: what the model misses of a mode moves with it. Statuses of identify_run. */
+int changed_job(struct pool *pool, const struct settled *settled, int before, const rotid_environment *environment,
+                struct message_list *notes, struct job *out);
 
 /* --------------------------------------------------------------------------------------------------------------- correct */
 

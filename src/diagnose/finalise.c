@@ -225,6 +225,13 @@ static const char *open_parameters(struct engine *engine)
     return text;
 }
 
+/* Misfit without a cause over that of the stated noise: of all residuals, or of the frequencies where that is more. */
+static double scatter(const struct engine *engine)
+{
+    const rotid_round *round = &engine->out->round->result;
+    return sqrt(fmax(round->chi2 / fmax(round->dof, 1), round->chi2_frequency / fmax(round->frequencies, 1)));
+}
+
 /* The same where the question is what changed: the parts of the sentence, and what it ends with. */
 static const char *change_sentence(const struct engine *engine, const char *causes, const char *likely, const char *others,
                                    const char *chance, const char *end)
@@ -234,6 +241,12 @@ static const char *change_sentence(const struct engine *engine, const char *caus
     const char *from = engine->before, *to = engine->after;
     switch (verdict->kind) {
     case ROTID_ADEQUATE:
+        if (verdict->p_value < BLOCK_LEVEL)
+            return pool_format(
+                pool,
+                "Between %s and %s the data differ by %.2g times what the stated noise makes (%s), and no change of "
+                "the catalogue explains that: with %.0f %% nothing changed and the noise is larger than stated.%s",
+                from, to, scatter(engine), chance, 100 * engine->out->posterior.nothing, end);
         return pool_format(pool, "Nothing changed between %s and %s that these data show (%s).%s", from, to, chance, end);
     case ROTID_NAMED:
         return pool_format(pool, "Between %s and %s changed: %s%s; %s (%s before).%s", from, to, causes, likely,
@@ -286,8 +299,11 @@ static const char *verdict_sentence(struct engine *engine)
             solid =
                 " The rotor is no beam: near its steps and in its short sections it bends as a beam cannot, so moduli that are "
                 "identified with the beam carry the error of beam theory. Identify with *FIT, MODEL=SOLID.";
-    for (int i = 0; i < out->result.ndata_findings && i < FAULTS_TOLD && faults; i++)
-        faults = pool_format(pool, "%s%s %s", faults, i ? ";" : " In the measurement", out->result.data_findings[i].text);
+    for (int i = 0; i < out->result.ndata_findings && i < FAULTS_TOLD && faults; i++) {
+        const rotid_data_finding *found = &out->result.data_findings[i];
+        faults = pool_format(pool, "%s%s%s%s%s %s", faults, i ? ";" : " In the measurement", found->state ? " of state " : "",
+                             found->state ? found->state : "", found->state ? "," : "", found->text);
+    }
     if (out->result.ndata_findings && faults)
         faults = pool_format(pool, out->result.ndata_findings > FAULTS_TOLD ? "%s; and %d more." : "%s.", faults,
                              out->result.ndata_findings - FAULTS_TOLD);
