@@ -7,21 +7,6 @@
 
 static const double pi = 3.14159265358979323846;
 
-static int lump_point(const struct effect *effect, const struct rotor *rotor, int i, int p, struct effect_point *point)
-{
-    (void)rotor;
-    if (i > 0)
-        return 0;
-    if (p < 0)
-        *point = (struct effect_point){.z = effect->value[1], .mass = effect->value[0], .inertia = effect->value[2]};
-    else
-        *point = (struct effect_point){.z = p == 1, .mass = p == 0, .inertia = p == 2};
-    return 1;
-}
-
-const struct effect_kind bench_lump = {
-    .id = "lump", .nparameter = 3, .parameter = {{"mass", "kg"}, {"z", "m"}, {"inertia", "kg.m2"}}, .point = lump_point};
-
 static struct effect effects[BENCH_EFFECTS];
 static struct disk fan;
 

@@ -13,9 +13,6 @@ extern const struct cause_kind cause_step_stiffness, cause_stiffness_gradient, c
     cause_tie_tension, cause_tie_shear, cause_shear_coefficient, cause_accelerometer_mass, cause_support_position,
     cause_support_extra, cause_support_rotation, cause_clamp, cause_hub_stiffness, cause_added_inertia, cause_layer_slip;
 
-/* A lump with an inertia as well: mass, z, inertia. */
-extern const struct effect_kind bench_lump;
-
 /* Overwrites the static rotor of paper_rotor: bored left shaft, perforated core, a fan, springs that are felt, `elements` in
  * every segment (0: the paper's own), no effects yet. */
 struct rotor *bench_rotor(enum bundle_model model, int rods, int elements);

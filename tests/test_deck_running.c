@@ -380,6 +380,8 @@ POOL_TEST(a_bearing_that_is_not_what_it_seems_is_warned_of)
     says(SHAFT TWO "*BEARING\n1, 1e8, 0, 0, 1e8, -1, 0, 0, 1\n", ROTID_WARNING, 15,
          "direct damping of this bearing is below zero");
     says(SHAFT TWO "*DISK\n1, 5, 0.1\n", ROTID_WARNING, 0, "no polar one");
+    says(SHAFT "*DISK, NAME=d\n1, 5\n*CAUSE, TYPE=added_inertia, AT=d, NAME=c\ninertia, 0.1\n" TWO, ROTID_WARNING, 0,
+         "no polar one");
 }
 
 /* Ip = int r^2 dm, Id = int (r^2/2 + z^2) dm: no more than twice. */
@@ -387,6 +389,8 @@ POOL_TEST(a_disk_with_more_polar_inertia_than_a_body_has_is_warned_of)
 {
     rotid_deck *deck;
     says(SHAFT TWO "*DISK\n1, 5, 0.1, 0.3\n", ROTID_WARNING, 0, "is 3 times the diametral one, expected at most 2 times");
+    says(SHAFT "*DISK, NAME=d\n1, 5, 0.15, 0.19\n*CAUSE, TYPE=added_inertia, AT=d, NAME=c\ninertia, -0.12\n" TWO, ROTID_WARNING,
+         14, "disk d has 0.03 kg.m2 about a diameter and 0.19 about the axis, expected at most twice as much");
     const char *thin = SHAFT TWO "*DISK\n1, 5, 0.123, 0.247\n"; /* 2 but for the digits */
     assert_status(rotid_deck_read_text(strlen(thin), thin, "deck", folder_path("."), 0, NULL, NULL, NULL, &deck), ROTID_OK);
     for (int i = 0; i < deck->nmessage; i++)

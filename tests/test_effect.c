@@ -187,10 +187,10 @@ POOL_TEST(a_mass_at_a_node_is_a_disk)
         double from, to;
         rotor_group_span(rotor, 1, &from, &to);
         double z = n == 0 ? 0 : n == 1 ? to : rotor_length(rotor);
-        rotor->disk[0] = (struct disk){"fan", z, 12, 0.4, 0, 0, 0};
+        rotor->disk[0] = (struct disk){"fan", z, 12, 0, 0, 0, 0};
         bench_build(rotor, 0, NULL, &disk);
         rotor->ndisk = 0;
-        bench_add(rotor, &bench_lump, -1, 0, (double[]){12, z, 0.4});
+        bench_add(rotor, cause_added_mass.effect, -1, 0, (double[]){12, z, 0});
         bench_build(rotor, 0, NULL, &lump);
         bench_matrices(&lump, NULL, &k[0], &m[0]);
         bench_matrices(&disk, NULL, &k[1], &m[1]);
@@ -199,7 +199,7 @@ POOL_TEST(a_mass_at_a_node_is_a_disk)
     }
 }
 
-/* A rigid motion feels mass and inertia wherever the lump is, and nothing jumps where it crosses a node. */
+/* A rigid motion feels the mass wherever the lump is, and nothing jumps where it crosses a node. */
 POOL_TEST(a_mass_moves_smoothly_from_element_to_element)
 {
     struct rotor *rotor = bench_rotor(BUNDLE_RODS, 1, 4);
@@ -208,7 +208,7 @@ POOL_TEST(a_mass_moves_smoothly_from_element_to_element)
     rotid_matrix k, m, m0, before;
     bench_build(rotor, 0, NULL, &bare);
     bench_matrices(&bare, NULL, &k, &m0);
-    bench_add(rotor, &bench_lump, -1, 0, (double[]){9, 0, 0.3});
+    bench_add(rotor, cause_added_mass.effect, -1, 0, (double[]){9, 0, 0});
     bench_build(rotor, 1, &place, &beam);
     int n = beam.mesh.ndof;
     double *shift = pool_get(&test_pool, (size_t)n, sizeof(double)), *turn = pool_get(&test_pool, (size_t)n, sizeof(double)),
@@ -224,13 +224,13 @@ POOL_TEST(a_mass_moves_smoothly_from_element_to_element)
         matrix_combine(1, &m, -1, &m0, &m);
         assert_close(matrix_product(&m, shift, shift, work), 9, 1e-10, 0);
         assert_close(matrix_product(&m, shift, turn, work), -9 * z, 0, 1e-9);
-        assert_close(matrix_product(&m, turn, turn, work), 9 * z * z + 0.3, 0, 1e-9);
+        assert_close(matrix_product(&m, turn, turn, work), 9 * z * z, 0, 1e-9);
     }
     for (int e = 1; e < beam.mesh.nelement; e++) {
         double left = beam.mesh.z[e] - 1e-9, right = beam.mesh.z[e] + 1e-9;
         bench_matrices(&beam, &left, &k, &before);
         bench_matrices(&beam, &right, &k, &m);
-        assert_close(bench_largest(&m, &before), 0, 0, 2e-6 * 0.3 / (0.03 * 0.03));
+        assert_close(bench_largest(&m, &before), 0, 0, 2e-6 * 9);
     }
 }
 
@@ -245,15 +245,19 @@ POOL_TEST(mass_properties_know_of_effects)
     rotor->sling = 1.5;
     bench_build(rotor, 0, NULL, &beam);
     beam_mass_properties(&beam, &bare);
-    bench_add(rotor, &bench_lump, -1, 0, (double[]){9, 0.4, 0.3});
+    bench_add(rotor, cause_added_mass.effect, -1, 0, (double[]){9, 0.4, 0});
     bench_build(rotor, 0, NULL, &beam);
     beam_mass_properties(&beam, &with);
     assert_close(with.mass, bare.mass + 9, 1e-14, 0);
     double center = (bare.mass * bare.center + 9 * 0.4) / with.mass;
     assert_close(with.center, center, 1e-14, 0);
-    assert_close(with.inertia, bare.inertia + bare.mass * pow(bare.center - center, 2) + 9 * pow(0.4 - center, 2) + 0.3, 1e-13,
-                 0);
+    assert_close(with.inertia, bare.inertia + bare.mass * pow(bare.center - center, 2) + 9 * pow(0.4 - center, 2), 1e-13, 0);
     assert_close(beam.rotor.spring[0].lateral, with.mass * 9.81 / 1.5, 1e-14, 0);
+    rotor->neffect = 0;
+    bench_add(rotor, cause_added_inertia.effect, 0, 0, (double[]){-0.3});
+    bench_build(rotor, 0, NULL, &beam);
+    beam_mass_properties(&beam, &with);
+    assert_close(with.inertia, bare.inertia - 0.3, 1e-13, 0);
     rotor->neffect = 0;
     bench_add(rotor, cause_density.effect, 1, 0, (double[]){1.25});
     bench_build(rotor, 0, NULL, &beam);
@@ -359,10 +363,10 @@ POOL_TEST(a_mass_at_the_interface_hangs_on_the_node)
         double from, to;
         rotor_group_span(rotor, 0, &from, &to);
         bench_add(rotor, cause_joint.effect, 0, 0, (double[]){3e-9});
-        rotor->disk[0] = (struct disk){"fan", to, 12, 0.4, 0, 0, 0};
+        rotor->disk[0] = (struct disk){"fan", to, 12, 0, 0, 0, 0};
         bench_build(rotor, 0, NULL, &disk);
         rotor->ndisk = 0;
-        bench_add(rotor, &bench_lump, -1, 0, (double[]){12, to, 0.4});
+        bench_add(rotor, cause_added_mass.effect, -1, 0, (double[]){12, to, 0});
         bench_build(rotor, 0, NULL, &lump);
         bench_matrices(&lump, NULL, &k[0], &m[0]);
         bench_matrices(&disk, NULL, &k[1], &m[1]);

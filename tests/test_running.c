@@ -885,6 +885,48 @@ POOL_TEST(a_slender_rotor_is_the_same_as_beam_and_as_solid)
     running_case_close(&c[1]);
 }
 
+/* What is added to the diametral inertia of a disk, or taken from it, is a disk with that inertia and the same polar one: at
+ * rest, at speed, in torsion. */
+POOL_TEST(an_inertia_added_to_a_disk_is_that_of_the_disk)
+{
+    static const struct {
+        const char *model, *disk, *added;
+    } table[] = {{"BEAM", ".15, .19", "-.12"}, {"BEAM", ".1, .19", ".05"},    {"BEAM", "0, 0", ".05"},
+                 {"BEAM", ".1, .19", "-.1"},   {"SOLID", ".15, .19", "-.12"}, {"SOLID", ".1, .19", ".05"},
+                 {"SOLID", "0, 0", ".05"},     {"SOLID", ".1, .19", "-.1"},   {"SOLID", ".1, .19", "-.0001"}};
+    for (size_t t = 0; t < sizeof table / sizeof *table; t++) {
+        struct running_case c[2];
+        double diametral, polar, added = strtod(table[t].added, NULL);
+        assert_int_equal(sscanf(table[t].disk, "%lf, %lf", &diametral, &polar), 2);
+        for (int own = 0; own < 2; own++) {
+            const char *cause =
+                own ? "" : pool_format(&test_pool, "*CAUSE, NAME=c, TYPE=added_inertia, AT=dd\ninertia, %s\n", table[t].added);
+            assert_int_equal(
+                running_case_open(pool_format(&test_pool,
+                                              "*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, .3\n*DENSITY\n7850\n*SHAFT, NAME=a, "
+                                              "MATERIAL=s\n1.1, .06, 0, 40\n*DISK, NAME=dd\n.25, 10, %.17g, %.17g\n%s*FIT, "
+                                              "MODEL=%s\n*RUNNING\n*BEARING\nstart, 3e7, 100\n*BEARING\n.95, 5e7, 100\n",
+                                              own ? diametral + added : diametral, polar, cause, table[t].model),
+                                  12000, 4, 0, &c[own]),
+                ROTID_OK);
+        }
+        for (int i = 0; i < 4; i++) {
+            const rotid_campbell_speed *as[2] = {&c[0].speeds.campbell[i], &c[1].speeds.campbell[i]};
+            assert_true(as[0]->nmodes >= 6 && as[0]->nmodes == as[1]->nmodes);
+            for (int j = 0; j < as[0]->nmodes; j++)
+                assert_close(as[0]->modes[j].frequency_hz, as[1]->modes[j].frequency_hz, 1e-9, 0);
+        }
+        assert_true(c[0].speeds.ncritical_speeds > 0 && c[0].speeds.ncritical_speeds == c[1].speeds.ncritical_speeds);
+        for (int i = 0; i < c[0].speeds.ncritical_speeds; i++)
+            assert_close(c[0].speeds.critical_speeds[i].speed_rpm, c[1].speeds.critical_speeds[i].speed_rpm, 1e-9, 0);
+        assert_true(c[0].speeds.ntorsion > 0 && c[0].speeds.ntorsion == c[1].speeds.ntorsion);
+        for (int i = 0; i < c[0].speeds.ntorsion; i++)
+            assert_close(c[0].speeds.torsion[i].frequency_hz, c[1].speeds.torsion[i].frequency_hz, 1e-9, 0);
+        running_case_close(&c[0]);
+        running_case_close(&c[1]);
+    }
+}
+
 /* Two couplings of inertia J at the ends of a free shaft: tan b = 2 m b/(m^2 b^2 - 1), m = J/(rho Ip L), w = b sqrt(G/rho)/L. By
  * f ~ sqrt G its relative deviation is half that of G, and *CHANGE counts as G does. */
 POOL_TEST(couplings_twist_the_machine_as_a_free_shaft_with_two_inertias)

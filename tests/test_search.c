@@ -244,6 +244,19 @@ UNIT_TEST(a_mode_that_was_left_out_is_back_beside_its_cause)
     rotid_diagnosis_free(d);
 }
 
+/* Less inertia than stated, two draws of the noise: a solid could not take any away, and was of another density. */
+UNIT_TEST(a_disk_of_a_solid_has_less_inertia_than_stated)
+{
+    static const char *const deck[] = {"less_inertia", "less_inertia_again"};
+    for (int i = 0; i < 2; i++) {
+        rotid_diagnosis *d = diagnosed(deck[i]);
+        names(d, "added_inertia", "dd");
+        assert_close(value_of(&d->verdict.causes[0], "inertia"), -0.03, 0, 0.001);
+        assert_true(d->parameters[0].ci95[0] < 2.1e11 && d->parameters[0].ci95[1] > 2.1e11);
+        rotid_diagnosis_free(d);
+    }
+}
+
 /* A fault that its fit takes to where no data can be put right stays at what was fitted; the diagnosis was an error. */
 UNIT_TEST(a_line_of_sensors_stays_in_the_rotor)
 {

@@ -141,6 +141,8 @@ POOL_TEST(rigid_motions_cost_nothing_and_weigh_what_the_parts_weigh)
     struct assembled a;
     struct mass_properties own;
     everything(&b);
+    b.rotor.neffect = 1;
+    b.effect[0] = (struct effect){.name = "less", .kind = rig_kind("added_inertia"), .target = 0, .value = {-0.2}};
     assemble(&b.rotor, &a);
     double scale = product(&a, &a.k, shear, shear), mass = product(&a, &a.m, translation, translation),
            first = -product(&a, &a.m, translation, rotation), second = product(&a, &a.m, rotation, rotation);
@@ -308,7 +310,7 @@ POOL_TEST(derivatives_agree_with_differences)
                                             {.name = "turn", .target = -1, .value = {2e5, 1.311}},
                                             {.name = "clamp", .target = 0, .value = {3e-6, 2e-7}},
                                             {.name = "wide", .target = -1, .variant = 1, .value = {4, 1.07, 0.21}},
-                                            {.name = "inert", .target = 0, .value = {0.2}},
+                                            {.name = "inert", .target = 0, .value = {-0.2}},
                                             {.name = "hubs", .target = -1, .value = {0.6}},
                                             {.name = "slip", .target = 3, .value = {0.08}}};
     static const char *const kinds[] = {

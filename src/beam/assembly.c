@@ -105,7 +105,7 @@ void beam_assemble(struct beam *beam, const double *x, rotid_matrix *k, rotid_ma
     for (int i = 0; i < beam->rotor.ndisk; i++) {
         int v = 2 * mesh->disk_node[i];
         matrix_add(m, v, v, beam->rotor.disk[i].mass);
-        matrix_add(m, v + 1, v + 1, beam->rotor.disk[i].diametral);
+        matrix_add(m, v + 1, v + 1, effects_on_disk(&beam->rotor, i));
     }
     for (int i = 0; i < beam->rotor.nspring && !beam->elastic_only; i++) {
         int v = 2 * mesh->spring_node[i];
@@ -199,10 +199,11 @@ void beam_differentiate(const struct beam *beam, int p, rotid_matrix *dk, rotid_
             add_stretch(&mesh->tierod[i], &dstretch, dk, dm);
         }
     differentiate_springs(beam, parameter, dk);
-    if (parameter.kind == PARAMETER_DISK_MASS || parameter.kind == PARAMETER_DISK_INERTIA) {
-        int dof = 2 * mesh->disk_node[parameter.index] + (parameter.kind == PARAMETER_DISK_INERTIA);
-        matrix_add(dm, dof, dof, 1);
-    }
+    int turns = effects_disk_of(&beam->rotor, parameter);
+    if (parameter.kind == PARAMETER_DISK_MASS)
+        matrix_add(dm, 2 * mesh->disk_node[parameter.index], 2 * mesh->disk_node[parameter.index], 1);
+    else if (turns >= 0)
+        matrix_add(dm, 2 * mesh->disk_node[turns] + 1, 2 * mesh->disk_node[turns] + 1, 1);
 }
 
 static void move_rigidly(const struct mesh *mesh, int node, double z, double *u)
@@ -278,11 +279,11 @@ void beam_mass_properties(const struct beam *beam, struct mass_properties *prope
         sum.m2 += inertia;
     }
     for (int i = 0; i < rotor->ndisk; i++) {
-        const struct disk *disk = &rotor->disk[i];
-        add_point_of_mass(&sum, disk->mass, disk->diametral, mesh->z[mesh->disk_node[i]]);
+        double z = mesh->z[mesh->disk_node[i]];
+        add_point_of_mass(&sum, rotor->disk[i].mass, effects_on_disk(rotor, i), z);
     }
     for (struct lumped lumped = {.i = -1}; lumped_next(beam, &lumped);)
-        add_point_of_mass(&sum, lumped.point.mass, lumped.point.inertia, lumped.point.z);
+        add_point_of_mass(&sum, lumped.point.mass, 0, lumped.point.z);
     properties->mass = sum.m0;
     properties->center = sum.m1 / sum.m0;
     properties->inertia = sum.m2 - sum.m1 * sum.m1 / sum.m0;

@@ -118,9 +118,9 @@ static double point_inertia(const struct beam *beam, int e, const struct effect_
     if (beam->type == MODE_AXIAL)
         return point->mass;
     if (beam->rotor.segment[beam->mesh.segment[e]].rectangular)
-        return 2 * point->inertia;
+        return 0;
     rotor_diameters(&beam->rotor, beam->mesh.segment[e], &outer, &inner);
-    return point->mass * outer * outer / 4 + 2 * point->inertia;
+    return point->mass * outer * outer / 4;
 }
 
 /* m += M of the masses of effects, or its derivative where there is a parameter */

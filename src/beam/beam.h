@@ -316,7 +316,7 @@ struct lumped { /* one of them; start with i = -1 and the rest 0 */
 int lumped_next(const struct beam *beam, struct lumped *lumped);
 
 /* Adds to k [16] of its element B' (S^-1 + G)^-1 B, B = [v; theta], S = diag(lateral, rotational), unless the beam is to be
- * elastic_only, and to m [16] mass v v' + inertia theta theta'. */
+ * elastic_only, and to m [16] mass v v'. */
 void lumped_add(const struct beam *beam, const struct lumped *lumped, const struct element *element, double *k, double *m);
 
 /* Adds the derivatives to dk and dm, d being the direction of the element's quantities. Returns 0 where it adds nothing. */

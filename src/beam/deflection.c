@@ -109,13 +109,8 @@ static void add_axis(const struct beam *beam, int e, double per_length, rotid_ma
     other.rhoi = per_length > 0 ? 0 : 2 * element.rhoi;
     element_matrices(&other, k, own);
     for (struct lumped lumped = {.i = -1}; lumped_next(beam, &lumped);) {
-        if (lumped.element != e)
-            continue;
-        lumped_add(beam, &lumped, &element, stiffness, mass);
-        struct lumped turning = lumped;
-        turning.point = (struct effect_point){.z = lumped.point.z, .inertia = 2 * lumped.point.inertia};
-        if (!(per_length > 0))
-            lumped_add(beam, &turning, &element, k, own);
+        if (lumped.element == e)
+            lumped_add(beam, &lumped, &element, stiffness, mass);
     }
     hinge_condense(beam, e, stiffness, own);
     beam_add_between(a, e, e + 1, own);

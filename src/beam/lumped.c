@@ -188,7 +188,6 @@ void lumped_add(const struct beam *beam, const struct lumped *lumped, const stru
     struct lumped_shape n;
     lumped_shapes(element, place_in(&beam->mesh, lumped), &n, NULL, NULL);
     add_product(point->mass, n.v, n.v, m);
-    add_product(point->inertia, n.theta, n.theta, m);
     if (beam->elastic_only)
         return;
     if (point->lateral == 0 && point->rotational == 0)
@@ -227,9 +226,7 @@ int lumped_differentiate(const struct beam *beam, struct parameter parameter, co
         by_xi.theta[j] = by_xi.theta[j] * dxi + by_phi.theta[j] * dphi;
     }
     add_product(dpoint.mass, n.v, n.v, dm);
-    add_product(dpoint.inertia, n.theta, n.theta, dm);
     add_product(2 * point->mass, n.v, by_xi.v, dm);
-    add_product(2 * point->inertia, n.theta, by_xi.theta, dm);
     if (point->lateral == 0 && point->rotational == 0 && dpoint.lateral == 0 && dpoint.rotational == 0)
         return 1;
     struct pair dg;

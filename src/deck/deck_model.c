@@ -341,8 +341,6 @@ int deck_check_bars(struct deck_reader *reader, const struct data_line *line, vo
     return 0;
 }
 
-#define MORE_THAN_ROUNDING 1.02 /* of inertias stated with two or three digits */
-
 int deck_check_disk(struct deck_reader *reader, const struct data_line *line, void *item)
 {
     const struct rotor *rotor = &reader->job->rotor;

@@ -151,7 +151,8 @@ void deck_put_values(struct deck_writer *w, const struct deck_row *row, const vo
 void deck_put_list_item(struct deck_writer *w, const char *card, const void *from);
 
 /* Whether two numbers are the same but for rounding: of sums and ratios of lengths, of a quotient by a unit. */
-#define DECK_ROUNDING 1e-11
+#define DECK_ROUNDING      1e-11
+#define MORE_THAN_ROUNDING 1.02 /* of inertias stated with two or three digits */
 int deck_is_near(double a, double b);
 
 /* Whether a value lies from lower to upper; one beyond them by rounding becomes the bound. */

@@ -560,13 +560,26 @@ static void check_runup(struct deck_reader *reader, const struct place running)
             "or HOLDOUT=RUNUP");
 }
 
-/* Disks without polar inertia turn without gyroscopic moments: said once. */
+/* Disks without polar inertia turn without gyroscopic moments: said once. A cause that takes diametral inertia leaves the polar
+ * one.
+ */
 static void check_disks(struct deck_reader *reader, struct place place)
 {
     const struct rotor *rotor = &reader->job->rotor;
     int count = 0;
-    for (int i = 0; i < rotor->ndisk; i++)
-        count += rotor->disk[i].diametral > 0 && !(rotor->disk[i].polar > 0) && !reader->machine->without_disk[i];
+    for (int i = 0; i < rotor->ndisk; i++) {
+        const struct disk *disk = &rotor->disk[i];
+        double diametral = effects_on_disk(rotor, i);
+        if (reader->machine->without_disk[i])
+            continue;
+        count += diametral > 0 && !(disk->polar > 0);
+        if (diametral < disk->diametral && disk->polar > 2 * MORE_THAN_ROUNDING * diametral)
+            deck_note(
+                reader, place,
+                "with its added_inertia the disk %s has %.4g kg.m2 about a diameter and %.4g about the axis, expected at most "
+                "twice as much: state both in *DISK",
+                disk->name, diametral, disk->polar);
+    }
     for (int i = 0; i < reader->machine->ndisk; i++)
         count += reader->machine->disk[i].diametral > 0 && !(reader->machine->disk[i].polar > 0);
     if (count)

@@ -13,11 +13,12 @@ static const rotid_diagnosis nothing = {
     .noise = {.frequency = NAN, .shape = NAN}};
 
 /* Whether an effect may stay in a rotor beside another one of its kind at its target: factors of fields over z multiply, masses
- * and springs at points add up. */
+ * and springs at points and inertias of a disk add up. */
 static int effect_can_stay(const struct effect *effect)
 {
     const struct effect_kind *kind = effect->kind;
-    return (kind->field || kind->point) && !kind->section && !kind->tierod && !kind->spring && !kind->joint && !kind->at_sensor;
+    return (kind->field || kind->point || kind->at_disk) && !kind->section && !kind->tierod && !kind->spring && !kind->joint &&
+           !kind->at_sensor;
 }
 
 /* before: number of effects without the set of the fit */

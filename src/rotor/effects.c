@@ -144,6 +144,20 @@ int effects_move_spring(const struct rotor *rotor, int spring)
     return 0;
 }
 
+double effects_on_disk(const struct rotor *rotor, int disk)
+{
+    double sum = rotor->disk[disk].diametral;
+    for (int i = 0; i < rotor->neffect; i++)
+        sum += rotor->effect[i].kind->at_disk && rotor->effect[i].target == disk ? rotor->effect[i].value[0] : 0;
+    return sum;
+}
+
+int effects_disk_of(const struct rotor *rotor, struct parameter parameter)
+{
+    const struct effect *effect = parameter.kind == PARAMETER_EFFECT ? &rotor->effect[parameter.index] : NULL;
+    return effect && effect->kind->at_disk ? effect->target : parameter.kind == PARAMETER_DISK_INERTIA ? parameter.index : -1;
+}
+
 /* whether the rods press on what lies at z */
 static int clamps(const struct tierod *rod, double z)
 {

@@ -205,7 +205,7 @@ struct effect_bundle {     /* of tie rods */
 };
 
 struct effect_point {           /* anywhere on the axis, which moves with the rotor there */
-    double z, mass, inertia;    /* m, kg, kg.m2 */
+    double z, mass;             /* m, kg */
     double lateral, rotational; /* springs to the ground [N/m, N.m/rad] */
 };
 
@@ -225,7 +225,7 @@ struct effect_kind {
     int nparameter;
     struct effect_parameter_name parameter[EFFECT_MOST_PARAMETERS];
     int at_sensor; /* nonzero: the target is a sensor */
-    int at_disk;   /* nonzero: the target is a disk, with which it is left out */
+    int at_disk;   /* nonzero: the target is a disk, with which it is left out; its parameter adds to the diametral inertia */
     int (*field)(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
                  struct effect_field *field);
     int (*section)(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
@@ -343,6 +343,10 @@ int effects_spring_derivative(const struct rotor *rotor, struct parameter parame
 
 /* Whether an effect may move it. */
 int effects_move_spring(const struct rotor *rotor, int spring);
+
+/* Diametral inertia of a disk; and the disk whose one grows with a parameter, kg.m2 for kg.m2, or -1. */
+double effects_on_disk(const struct rotor *rotor, int disk);
+int effects_disk_of(const struct rotor *rotor, struct parameter parameter);
 
 /* Force on the axis at z of a group [N], tension positive: its preload less what the tie rods press together there; and the
  * derivative, 0 where it does not depend on the parameter. */

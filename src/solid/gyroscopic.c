@@ -6,19 +6,18 @@
 #include "solid/solid.h"
 
 /* half on (U + V)^2 and on W^2 of the surface, twice: see add_ring of solid.c */
-static void add_ring(const struct solid *solid, const struct effect_point *point, const struct target *p)
+static void add_ring(const struct solid *solid, double z, double mass, const struct target *p)
 {
     const struct solid_mesh *mesh = &solid->mesh;
     int dof[3][SURFACE_MOST];
-    double weight[3][SURFACE_MOST], z = fmin(fmax(point->z, 0), mesh->z[mesh->nslice]),
-                                    radius = mesh->node[mesh->surface[2 * solid_mesh_slice(mesh, z) + 1]].r;
+    double weight[3][SURFACE_MOST];
     struct motion at[3];
     for (int c = 0; c < 3; c++)
         motion_of_surface(mesh, z, c, 0, dof[c], weight[c], &at[c]);
-    motion_add(p, point->mass, &at[0], &at[0]);
-    motion_add(p, 2 * point->mass, &at[0], &at[1]);
-    motion_add(p, point->mass, &at[1], &at[1]);
-    motion_add(p, point->mass + 2 * point->inertia / (radius * radius), &at[2], &at[2]);
+    motion_add(p, mass, &at[0], &at[0]);
+    motion_add(p, 2 * mass, &at[0], &at[1]);
+    motion_add(p, mass, &at[1], &at[1]);
+    motion_add(p, mass, &at[2], &at[2]);
 }
 
 void solid_gyroscopic(const struct solid *solid, rotid_matrix *p)
@@ -46,8 +45,8 @@ void solid_gyroscopic(const struct solid *solid, rotid_matrix *p)
         motion_add(&target, rotor->disk[i].polar, theta, theta);
     }
     for (int effect = 0, i = -1; rotor->neffect && solid_next_point(solid, &effect, &i, &point);)
-        if (point.mass != 0 || point.inertia != 0)
-            add_ring(solid, &point, &target);
+        if (point.mass != 0)
+            add_ring(solid, point.z, point.mass, &target);
     members_gyroscopic(solid, &target);
 }
 

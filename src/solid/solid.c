@@ -315,13 +315,13 @@ static int disk_of(const struct solid *solid, int i, int p, double *mass, double
     const struct disk *disk = &solid->rotor.disk[i];
     enum mode_type type = solid->mesh.type;
     *mass = type == MODE_TORSION ? disk->polar : disk->mass;
-    *inertia = type == MODE_BENDING ? disk->diametral : 0;
+    *inertia = type == MODE_BENDING ? effects_on_disk(&solid->rotor, i) : 0;
     if (p < 0)
         return 1;
     struct parameter parameter = solid->parameter[p];
-    *mass = parameter.kind == PARAMETER_DISK_MASS && type != MODE_TORSION;
-    *inertia = parameter.kind == PARAMETER_DISK_INERTIA && type == MODE_BENDING;
-    return parameter.index == i && *mass + *inertia != 0;
+    *mass = parameter.kind == PARAMETER_DISK_MASS && parameter.index == i && type != MODE_TORSION;
+    *inertia = effects_disk_of(&solid->rotor, parameter) == i && type == MODE_BENDING;
+    return *mass + *inertia != 0;
 }
 
 static void add_to_section(const struct target *a, const struct solid_line *line, double v, double theta)
@@ -383,8 +383,7 @@ static void add_springs(const struct solid *solid, int p, const struct target *k
 }
 
 /* ---- lumped masses sit on the surface as a ring: half of the mass in each of U, V and W, in torsion all of it in V, along the
- * axis in U and W. What inertia about a diameter a mass has beyond that of a ring of the surface's radius acts on the slope W/R
- * of the surface. */
+ * axis in U and W. */
 
 int solid_next_point(const struct solid *solid, int *effect, int *i, struct effect_point *point)
 {
@@ -397,16 +396,14 @@ int solid_next_point(const struct solid *solid, int *effect, int *i, struct effe
 }
 
 /* d = 0: the mass; 1: its derivative by place; for every component of the motion of the surface */
-static void add_ring(const struct solid *solid, double z, double mass, double inertia, double dz, const struct target *m)
+static void add_ring(const struct solid *solid, double z, double mass, double dz, const struct target *m)
 {
     const struct solid_mesh *mesh = &solid->mesh;
     int dof[2][SURFACE_MOST + 3];
     double w[2][SURFACE_MOST + 3], radius = mesh->node[mesh->surface[2 * solid_mesh_slice(mesh, z) + 1]].r;
     for (int c = 0; c < 3; c++) {
         struct motion at, slope;
-        double half = mass / 2 + (c == 2 ? inertia / (radius * radius) : 0);
-        if (mesh->type != MODE_BENDING)
-            half = mesh->type == MODE_AXIAL ? mass : mass * radius * radius + 2 * inertia;
+        double half = mesh->type == MODE_BENDING ? mass / 2 : mesh->type == MODE_AXIAL ? mass : mass * radius * radius;
         motion_of_surface(mesh, z, c, 0, dof[0], w[0], &at);
         if (dz == 0) {
             motion_add(m, half, &at, &at);
@@ -434,11 +431,11 @@ static void add_points(const struct solid *solid, int p, const struct target *k,
             (point.lateral != 0 || point.rotational != 0 || (rate && (d.lateral != 0 || d.rotational != 0))))
             add_ground(solid, &point, p < 0 ? NULL : &d, k);
         if (m && p < 0)
-            add_ring(solid, point.z, point.mass, point.inertia, 0, m);
-        if (m && rate && (d.mass != 0 || d.inertia != 0))
-            add_ring(solid, point.z, d.mass, d.inertia, 0, m);
+            add_ring(solid, point.z, point.mass, 0, m);
+        if (m && rate && d.mass != 0)
+            add_ring(solid, point.z, d.mass, 0, m);
         if (m && rate && d.z != 0 && point.z > 0 && point.z < length)
-            add_ring(solid, point.z, point.mass, point.inertia, d.z, m);
+            add_ring(solid, point.z, point.mass, d.z, m);
     }
 }
 
@@ -466,14 +463,14 @@ static void attached_moments(const struct solid *solid, double moment[3])
         double z = mesh->z[solid_mesh_line(mesh, rotor->disk[i].position)], mass = rotor->disk[i].mass;
         moment[0] += mass;
         moment[1] += mass * z;
-        moment[2] += mass * z * z + rotor->disk[i].diametral;
+        moment[2] += mass * z * z + effects_on_disk(rotor, i);
     }
     for (int effect = 0, i = -1; solid_next_point(solid, &effect, &i, &point);) {
         double z = fmin(fmax(point.z, 0), mesh->z[mesh->nslice]),
                radius = mesh->node[mesh->surface[2 * solid_mesh_slice(mesh, z) + 1]].r;
         moment[0] += point.mass;
         moment[1] += point.mass * z;
-        moment[2] += point.mass * (z * z + radius * radius / 2) + point.inertia;
+        moment[2] += point.mass * (z * z + radius * radius / 2);
     }
     members_moments(solid, moment);
 }
@@ -745,8 +742,17 @@ static void take_in_element(const struct solid *solid, const struct solid_elemen
             take_in(solid->mesh.node[element->node[n]].dof[c], from, end);
 }
 
-/* Rows of what solid_add_attached adds for parameter p: those of the sections and of the surface at the points of an effect; all
- * of them where something else is attached that moves with p. */
+static void take_in_section(const struct solid_line *line, int *from, int *end)
+{
+    for (int t = 0; t < 2; t++) {
+        const struct motion *motion = t ? &line->theta : &line->v;
+        for (int j = 0; j < motion->count; j++)
+            take_in(motion->dof[j], from, end);
+    }
+}
+
+/* Rows of what solid_add_attached adds for parameter p: those of the sections and of the surface at the points of an effect, of
+ * the section of a disk; all of them where something else is attached that moves with p. */
 static void take_in_attached(const struct solid *solid, int p, int *from, int *end)
 {
     const struct parameter parameter = solid->parameter[p];
@@ -755,6 +761,8 @@ static void take_in_attached(const struct solid *solid, int p, int *from, int *e
     struct effect_point point;
     if (parameter.kind <= PARAMETER_RHO)
         return;
+    if (e && e->kind->at_disk)
+        take_in_section(line_at(solid, solid->rotor.disk[e->target].position), from, end);
     if (!e || e->kind->spring || e->kind->tierod) {
         *from = 0;
         *end = mesh->ndof;
@@ -764,11 +772,7 @@ static void take_in_attached(const struct solid *solid, int p, int *from, int *e
         int slice = solid_mesh_slice(mesh, fmin(fmax(point.z, 0), mesh->z[mesh->nslice]));
         take_in_element(solid, &mesh->element[solid_mesh_outermost(mesh, slice)], from, end);
         for (const struct solid_line *line = &solid->line[slice]; line <= &solid->line[slice + 1]; line++)
-            for (int t = 0; t < 2; t++) {
-                const struct motion *motion = t ? &line->theta : &line->v;
-                for (int j = 0; j < motion->count; j++)
-                    take_in(motion->dof[j], from, end);
-            }
+            take_in_section(line, from, end);
     }
 }
 

@@ -1,15 +1,7 @@
-/* The diametral inertia of a disk is another one than stated, often none. At most it is that of its mass on a ring as wide as the
- * rotor is long, m (L/2)^2/2; a disk without mass is taken to weigh what the rotor weighs. */
+/* The diametral inertia of a disk is another one than stated, often none; the polar one, which a test at rest does not know,
+ * stays. At most it is that of its mass on a ring as wide as the rotor is long, m (L/2)^2/2; a disk without mass is taken to
+ * weigh what the rotor weighs. */
 #include "diagnose/causes/causes.h"
-
-static int point(const struct effect *effect, const struct rotor *rotor, int i, int p, struct effect_point *point)
-{
-    if (i > 0)
-        return 0;
-    *point =
-        (struct effect_point){.z = p < 0 ? rotor->disk[effect->target].position : 0, .inertia = p < 0 ? effect->value[0] : 1};
-    return 1;
-}
 
 static void bounds(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper)
 {
@@ -21,7 +13,7 @@ static void bounds(const struct rotor *rotor, const struct effect *effect, int p
 }
 
 static const struct effect_kind kind = {
-    .id = "added_inertia", .nparameter = 1, .parameter = {{"inertia", "kg.m2"}}, .at_disk = 1, .point = point};
+    .id = "added_inertia", .nparameter = 1, .parameter = {{"inertia", "kg.m2"}}, .at_disk = 1};
 
 const struct cause_kind cause_added_inertia = {
     .id = "added_inertia",
