@@ -338,10 +338,10 @@ def to_ross_whirls(checks, folder):
     """At speed as `rotid speeds` has it: a disk whose node is that of the end beside it, and tie rods between two nodes."""
     import csv
 
-    rotor_cards = STEEL + ("*SHAFT, NAME=core, MATERIAL=steel\n0.5, 0.06, 0, 4\n*SHAFT, NAME=end, MATERIAL=steel\n0.3, 0.04, 0, 4\n*DISK\n0.001, 9, 0.05, "
+    rotor_cards = STEEL + ("*SHAFT, NAME=core, MATERIAL=steel\n0.5, 0.06, 0, 4\n*SHAFT, NAME=end, MATERIAL=steel\n0.3, 0.04, 0, 4\n*DISK, NAME=fan\n0.001, 9, 0.05, "
                            "0.1\n*SPRING\n0.1, 1e6\n*SPRING\nend, 1e7\n")
     deck, machine, diagram = folder / "rotor.inp", folder / "machine.inp", folder / "campbell.csv"
-    for name, rods in (("disk beside a node", ""), *((f"tie rods, {model}", f"*TIEROD, NAME=rods, MATERIAL=steel, FROM=core.start, TO=core.end, MODEL="
+    for name, rods in (("disk beside a node", ""), ("disk of another inertia", "*CAUSE, NAME=c, TYPE=added_inertia, AT=fan\ninertia, 0.03\n"), *((f"tie rods, {model}", f"*TIEROD, NAME=rods, MATERIAL=steel, FROM=core.start, TO=core.end, MODEL="
                                                        f"{model}\n8, 0.02, 0.15, 0\n") for model in ("RODS", "TUBE"))):
         deck.write_text(rotor_cards + rods)
         machine.write_text(rotor_cards + rods + "*RUNNING\n*BEARING\nstart, 1e-3, 0\n*BEARING\nend, 1e-3, 0\n")
@@ -573,6 +573,8 @@ def from_abaqus(checks, folder):
                             f"*ELSET, ELSET=S{i + 1}\n{', '.join([f'S{i}'] * 16)}\n" for i in range(8)) + "*MASS, ELSET=S8"),
                         "a set to the last number": ("*ELEMENT, TYPE=MASS, ELSET=HUB\n", "*ELSET, ELSET=HUB, GENERATE\n" + "10, 999999999, 999\n" * 9 +
                                                      "*ELEMENT, TYPE=MASS\n"),
+                        "a keyword line that goes on": ("*BEAM SECTION, ELSET=LEFT, MATERIAL=STEEL", "*BEAM SECTION,\n** a comment\n ELSET = LEFT ,\nMATERIAL=STEEL"),
+                        "a node twice at one place": ("*ELEMENT, TYPE=MASS", "*NODE\n2, 0., 0., 0.3\n*ELEMENT, TYPE=MASS"),
                         "a set before its elements": ("*ELEMENT, TYPE=MASS, ELSET=HUB\n", "*ELSET, ELSET=HUB, GENERATE\n10, 10\n*ELEMENT, TYPE=MASS\n")}.items():
         path.write_text(ABAQUS.replace(*twice))
         written(rotid.from_abaqus(path), deck)
@@ -626,6 +628,10 @@ def from_abaqus(checks, folder):
         "a mass of three directions": (ABAQUS.replace("*MASS, ELSET=HUB\n5.", "*MASS, ELSET=HUB, TYPE=ANISOTROPIC\n5., 1., 2."), "*MASS: TYPE=ANISOTROPIC"),
         "a mass beside the elements": (ABAQUS.replace("1.0\n*", "1.0\n5, 0., 0., 0.5\n*", 1).replace("10, 2\n", "10, 5\n"), "node 5 belongs to no beam element"),
         "parts that nothing joins": (ABAQUS.replace("1.0\n*", "1.0\n5, 0., 0., 0.7\n*", 1).replace("3, 3, 4", "3, 5, 4"), "node 5 lies where node 3 is"),
+        "a node at two places": (ABAQUS.replace("*ELEMENT, TYPE=MASS", "*NODE\n2, 0., 0., 0.31\n*ELEMENT, TYPE=MASS"), "line 30: *NODE: node 2 is another place in line 5"),
+        "a material twice": (ABAQUS.replace("*BEAM SECTION, ELSET=LEFT", "*MATERIAL, NAME=Steel\n*BEAM SECTION, ELSET=LEFT"), "*MATERIAL: STEEL occurs twice, first in line 17"),
+        "a material of two moduli": (ABAQUS.replace("*DENSITY", "*ELASTIC\n2E11, 0.3\n*DENSITY"), "line 20: *ELASTIC: the material STEEL has one already"),
+        "data behind a comma": (ABAQUS.replace("*DENSITY\n", "*DENSITY,\n"), "line 21: *DENSITY: '7850.' is no option"),
         "a node in cylindrical coordinates": (ABAQUS.replace("NSET=ALL", "NSET=ALL, SYSTEM=C"), "line 3: *NODE: SYSTEM=C"),
         "no cards": ("nothing\n", "line 1: 'nothing' belongs to no card"),
     }

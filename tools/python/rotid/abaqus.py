@@ -17,12 +17,18 @@ LEFT_OUT = {"BOUNDARY": "supports: state them as *SPRING", "TRANSVERSE SHEAR STI
 
 class Card:
     def __init__(self, source, line, text):
-        self.source, self.line, self.rows = source, line, []
-        name, *options = (part.strip() for part in text[1:].split(","))
+        self.source, self.line, self.rows, self.options = source, line, [], {}
+        name, comma, options = text[1:].partition(",")
         self.name = " ".join(name.upper().split())
-        self.options = {}
-        for option in options:
+        self.take(line, comma + options)
+
+    def take(self, line, text):
+        """Options; behind a comma the line goes on in the next one."""
+        self.goes_on = text.endswith(",")
+        for option in filter(None, (part.strip() for part in text.split(","))):
             key, _, value = option.partition("=")
+            if line != self.line and not key[:1].isalpha():
+                self.wrong(f"'{option[:40]}' is no option, expected one where the line before ends with a comma", line)
             self.options["".join(key.upper().split())] = value.strip()
 
     def wrong(self, text, line=None):
@@ -45,10 +51,12 @@ def cards_of(source):
         if not line or line.startswith("**"):
             continue
         if line.startswith("*"):
-            cards.append(Card(source, number, line.rstrip(",")))
+            cards.append(Card(source, number, line))
             cards[-1].pending = False
         elif not cards:
             refuse(source, f"line {number}", f"'{line[:40]}' belongs to no card, expected an input file of Abaqus or CalculiX")
+        elif cards[-1].goes_on:
+            cards[-1].take(number, line)
         else:
             fields = [field.strip() for field in line.split(",")]
             goes_on = line.endswith(",") and cards[-1].name in ("ELEMENT", "ELSET")
@@ -83,6 +91,7 @@ class Reader:
     def __init__(self, source, scale):
         self.source, self.scale, self.notes = source, scale, {}
         self.place, self.elements, self.sets, self.materials, self.sections, self.masses, self.springs = {}, {}, {}, {}, [], [], []
+        self.line_of = {}  # a node
         self.current, self.given = None, {}
 
     def read(self):
@@ -111,7 +120,10 @@ class Reader:
             card.wrong(f"SYSTEM={card.options['SYSTEM']}, expected rectangular coordinates")
         for line, fields in card.rows:
             number = whole(card, line, fields[0], "the node")
-            self.place[number] = np.array([in_si(value(card, line, fields, 1 + c, "xyz"[c], default=0.0), self.scale["length"]) for c in range(3)])
+            place = np.array([in_si(value(card, line, fields, 1 + c, "xyz"[c], default=0.0), self.scale["length"]) for c in range(3)])
+            if (place != self.place.setdefault(number, place)).any():
+                card.wrong(f"node {number} is another place in line {self.line_of[number]}, expected one", line)
+            self.line_of.setdefault(number, line)
 
     def element(self, card):
         kind = card.need("TYPE")
@@ -148,13 +160,20 @@ class Reader:
 
     def material(self, card):
         self.current = {"name": card.need("NAME"), "line": card.line}
+        if self.current["name"] in self.materials:
+            card.wrong(f"{self.current['name'][:40]} occurs twice, first in line {self.materials[self.current['name']]['line']}")
         self.materials[self.current["name"]] = self.current
+
+    def once(self, card, key):
+        if key in self.current:
+            card.wrong(f"the material {self.current['name'][:40]} has one already, expected one")
 
     def elastic(self, card):
         if card.options.get("TYPE", "ISO").upper() not in ("ISO", "ISOTROPIC", "ENGINEERING CONSTANTS"):
             card.wrong(f"TYPE={card.options['TYPE']}, expected ISOTROPIC or ENGINEERING CONSTANTS")
         if not card.rows or self.current is None:
             card.wrong("expected E and Poisson's ratio behind a *MATERIAL")
+        self.once(card, "e")
         line, fields = card.rows[0]
         if card.options.get("TYPE", "ISO").upper().startswith("ENG"):
             fields = [field for _, more in card.rows for field in more]
@@ -176,6 +195,7 @@ class Reader:
     def density(self, card):
         if not card.rows or self.current is None:
             card.wrong("expected a density behind a *MATERIAL")
+        self.once(card, "rho")
         self.current["rho"] = in_si(value(card, *card.rows[0], 0, "the density", 0), self.scale["density"])
         if len(card.rows) > 1:
             self.notes[f"line {card.rows[0][0]}: of {len(card.rows)} densities the first one, {self.current['rho']:g} kg/m3, is taken"] = None
