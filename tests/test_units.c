@@ -400,6 +400,29 @@ UNIT_TEST(sections_too_far_apart_are_named_where_the_problem_fails)
     }
 }
 
+/* Of densities too: an error where the deck alone has a warning. */
+UNIT_TEST(densities_too_far_apart_are_named_where_the_problem_fails)
+{
+    static const struct {
+        const char *density, *says;
+    } table[] = {{"7.65e18", "near.inp:13:1: the stiffness matrix is not positive semidefinite: the density of b is 7.65e+18 "},
+                 {"1e-12", "near.inp:11:1: the stiffness matrix is not positive semidefinite: the density of a is 7.85e+03 "}};
+    for (size_t i = 0; i < 4; i++) {
+        char text[800], failure[ROTID_FAILURE_LENGTH];
+        rotid_deck *deck;
+        rotid_spectrum *spectrum;
+        (void)snprintf(text, sizeof text,
+                       "*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, .3\n*DENSITY\n7850\n*MATERIAL, NAME=t\n*ELASTIC\n2.1e11, .3\n"
+                       "*DENSITY\n%s\n*SHAFT, NAME=a, MATERIAL=s\n.4, .06, 0, 8\n*SHAFT, NAME=b, MATERIAL=t\n.4, .08, 0, 8\n"
+                       "*FIT, MODEL=%s\n",
+                       table[i / 2].density, i % 2 ? "SOLID" : "BEAM");
+        assert_status(rotid_deck_read_text(strlen(text), text, "near.inp", NULL, 0, NULL, NULL, failure, &deck), ROTID_OK);
+        assert_true(rotid_spectrum_compute(deck, NULL, 3, NULL, failure, &spectrum) < 0);
+        assert_non_null(strstr(failure, table[i / 2].says));
+        rotid_deck_free(deck);
+    }
+}
+
 /* ---- frequencies beside the model's */
 
 UNIT_TEST(a_common_factor_of_all_frequencies_is_named)

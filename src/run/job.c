@@ -127,6 +127,7 @@ int states_refuse_types(const struct states *states, const char *what, struct me
 }
 
 #define CONTRAST 1e12 /* of stiffnesses: rounding of the higher one is a thousandth of the lower one */
+#define HEAVIER  1e8  /* of densities: solids fail from 1e9 */
 #define ALIKE    1.45 /* so much may wrong moduli move one mode against another */
 
 static const struct {
@@ -203,15 +204,20 @@ const char *doubt_steps(struct pool *pool, const struct job *job)
                                            100 * error, ratio, job_value_text(pool, &job->units, 4, z, "m"));
 }
 
-/* EI/L^3 of the stiffest element and of the softest section, where rounding of the one is not small beside the other */
+/* EI/L^3 of the stiffest element and of the softest section, where rounding of the one is not small beside the other; densities
+ * likewise */
 void check_sections(const struct job *job, int status, struct message_list *notes)
 {
     const struct rotor *rotor = &job->rotor;
     double least = INFINITY, most = 0;
-    int soft = 0, hard = 0;
+    int soft = 0, hard = 0, light = 0, heavy = 0;
     if (notes->errors || (status != ROTID_ERROR_EIGEN && status != ROTID_ERROR_STIFFNESS && status != ROTID_ERROR_MASS &&
                           status != ROTID_ERROR_SLAVE))
         return;
+    for (int g = 0; g < rotor->ngroup; g++) {
+        light = rotor->group[g].material.rho < rotor->group[light].material.rho ? g : light;
+        heavy = rotor->group[g].material.rho > rotor->group[heavy].material.rho ? g : heavy;
+    }
     for (int s = 0; s < rotor->nsegment; s++) {
         const struct segment *segment = &rotor->segment[s];
         struct section section;
@@ -226,11 +232,18 @@ void check_sections(const struct job *job, int status, struct message_list *note
         most = fmax(most, of_element);
     }
     struct place place = job_part_place(job, soft);
+    double densest = rotor->group[heavy].material.rho, rho = rotor->group[light].material.rho;
     if (most > CONTRAST * least)
         message_at(notes, SEVERITY_ERROR, place,
                    "%s: a section of %s has EI/L^3 = %.2g N/m beside %.2g N/m of an element of %s, expected at most %.0e times "
                    "as much: lengths and diameters nearer to each other, or fewer elements",
                    rotid_status_text(status), rotor->group[soft].name, least, most, rotor->group[hard].name, CONTRAST);
+    else if (densest > HEAVIER * rho)
+        message_at(
+            notes, SEVERITY_ERROR, job_part_place(job, heavy),
+            "%s: the density of %s is %.3g kg/m3 beside %.3g kg/m3 of %s, expected at most %.0e times as much: one of them "
+            "in another unit?",
+            rotid_status_text(status), rotor->group[heavy].name, densest, rho, rotor->group[light].name, HEAVIER);
     else
         message_at(notes, SEVERITY_ERROR, place, "%s", rotid_status_text(status));
 }

@@ -309,7 +309,8 @@ double check_units(const struct job *job, const struct spectrum *spectrum, int r
 const char *doubt_steps(struct pool *pool, const struct job *job);
 
 /* Where the eigenvalue problem of the job failed (ROTID_ERROR_EIGEN, _STIFFNESS, _MASS, _SLAVE) and no error says why: an error
- * with the place of the softest section, and the stiffest element where the two are far apart. Nothing for other statuses. */
+ * with the place of the softest section, and the stiffest element where the two are far apart, or the densest group where
+ * another one is far lighter. Nothing for other statuses. */
 void check_sections(const struct job *job, int status, struct message_list *notes);
 
 /* --------------------------------------------------------------------------------------------------------- frf agreement */
