@@ -481,8 +481,8 @@ UNIT_TEST(what_scatters_more_than_stated_is_said_to)
     rotid_diagnosis_free(d);
 }
 
-/* The states of a deck, and the job that asks what changed from one to the other. */
-static void settle(const struct states *read, struct job *out)
+/* The states of a deck, and the job that asks what changed from one to the other; the number of warnings. */
+static size_t settle(const struct states *read, struct job *out)
 {
     const struct diagnose_options options = {.threads = 1, .before = "before", .after = "after"};
     struct message_list notes;
@@ -490,6 +490,7 @@ static void settle(const struct states *read, struct job *out)
     message_open(&notes, &test_pool);
     assert_status(changed_settle(&test_pool, read, &options, NULL, &notes, &settled), ROTID_OK);
     assert_status(changed_job(&test_pool, &settled, 0, NULL, &notes, out), ROTID_OK);
+    return notes.count;
 }
 
 static void read_changed(const char *text, struct states *read, struct job *out)
@@ -568,6 +569,30 @@ POOL_TEST(what_was_measured_once_takes_nothing_from_the_rest)
             assert_true(isnan(out.measurement.shape[s + SENSORS]));
     }
     free(text);
+}
+
+/* Of 4 and of 6 sensors from end to end all and the two ends lie where 7 have one. */
+POOL_TEST(sensors_at_other_places_are_told)
+{
+    static const struct hidden_state states[] = {{"before", "", 0, NULL}, {"after", "", 0, NULL}};
+    static const int sensors[] = {7, 4, 6};
+    struct states read[3];
+    for (int i = 0; i < 3; i++) {
+        const struct hide_request r = request(4, sensors[i], 1300);
+        char message[300], *text = hidden_states_deck(&r, 2, states, NULL, message, sizeof message);
+        const struct deck_memory memory = {"deck", strlen(text), text, NULL};
+        struct message_list notes;
+        message_open(&notes, &test_pool);
+        assert_status(deck_read_states(&test_pool, "deck", &memory, 0, NULL, &notes, &read[i]), ROTID_OK);
+        free(text);
+    }
+    for (int i = 1; i < 3; i++) {
+        struct job out;
+        read[0].state[1] = read[i].state[1];
+        assert_int_equal(settle(&read[0], &out), i == 2);
+        for (int s = 0; s < sensors[i]; s++)
+            assert_int_equal(isnan(out.measurement.shape[s]), i == 2 && s > 0 && s + 1 < sensors[i]);
+    }
 }
 
 /* An unknown that groups share is held in all of them, not in the first alone. */

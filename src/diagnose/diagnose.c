@@ -329,6 +329,24 @@ static int partner(const struct identification *found, int number)
     return -1;
 }
 
+/* A line that is off in one state alone, or sensors elsewhere, leave few places where shapes can be compared. */
+static void warn_of_places(const struct rotor *before, const struct rotor *after, const char *name, struct message_list *notes)
+{
+    int common = 0;
+    for (int i = 0; i < after->nsensor; i++) {
+        int s = 0;
+        while (s < before->nsensor &&
+               !(fabs(after->sensor[i].position - before->sensor[s].position) < SAME_PLACE * rotor_length(after)))
+            s++;
+        common += s < before->nsensor;
+    }
+    if (2 * common < (before->nsensor < after->nsensor ? before->nsensor : after->nsensor))
+        message_warn(notes,
+                     "%d of %d sensors of state %s have one of the other state within 1 %% of the length: shapes are compared at "
+                     "these alone",
+                     common, after->nsensor, name);
+}
+
 /* The modes of `after` with the numbers that their shapes give them beside the model, those that `before` has as well, corrected.
  */
 static int correct(struct pool *pool, const struct job *before, const struct identification *found, struct message_list *notes,
@@ -361,7 +379,9 @@ static int correct(struct pool *pool, const struct job *before, const struct ide
         return status;
     memcpy(job->measurement.number, compared.number, (size_t)job->measurement.nmode * sizeof(int));
     job->measurement.paired = 1;
-    if (!shapes)
+    if (shapes)
+        warn_of_places(&before->rotor, &job->rotor, name, notes);
+    else
         job->measurement.shape = NULL;
     for (int k = 0; k < job->measurement.nmode; k++) {
         int number = job->measurement.number[k], j = partner(found, number);
