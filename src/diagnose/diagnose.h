@@ -874,8 +874,9 @@ int evidence_open_model(struct pool *pool, const rotid_measured *measured, int n
 int evidence_of_model(const struct evidence_data *data, const struct model_prior *prior, int nown, const rotid_fit_result *fit,
                       int with_else, struct evidence *out);
 
-struct evidence_size { /* an amplitude of an item: mean and deviation by the data, deviation of its prior; a known one has 0, 0 */
-    double mean, std, prior;
+struct evidence_size { /* the amplitude of an item beside its prior where that is normal, its deviation before the data; of other
+                        */
+    double mean, std, prior; /* priors what the data alone say, 0 and infinity */
 };
 
 /* ln Z of the model of a scan with item i over that without it, at the place and width of the item; *size: NULL, or of its

@@ -773,29 +773,22 @@ static double gain_of_item(const struct scan *scan, const struct rotor *rotor, i
     const struct cause_parameter *size = &cause->parameter[cause->size];
     struct evidence_size unused, *out = size_of ? size_of : &unused;
     double lower = 0, upper = 1, square = item->norm * item->norm;
-    *out = (struct evidence_size){item->amplitude, 0, 0};
+    *out = (struct evidence_size){item->amplitude, 0, INFINITY};
     if (!item->usable)
         return 0;
     if (!cause_has_free_size(cause, c->fixed))
         return along - square / 2;
     cause_bounds(cause, rotor, &item->effect, cause->size, &lower, &upper);
     if (size->prior == PRIOR_LOG_FLAT || size->prior == PRIOR_FLAT) { /* by points over it */
-        double sum = -INFINITY, moment[2] = {0, 0}, before[2] = {0, 0};
+        double sum = -INFINITY;
         const int points = 24;
-        for (int pass = 0; pass < (size_of ? 2 : 1); pass++)
-            for (int j = 0; j < points; j++) {
-                double share = (j + 0.5) / points,
-                       x = size->prior == PRIOR_FLAT ? lower + share * (upper - lower)
-                                                     : decades_value(size, upper, share * decades_range(size)),
-                       a = (x - size->neutral) / item->unit, one = along * a - square * a * a / 2;
-                sum = pass ? sum : log_sum(sum, one);
-                for (int k = 0; k < 2 && pass; k++) {
-                    moment[k] += exp(one - sum) * (k ? a * a : a);
-                    before[k] += (k ? a * a : a) / points;
-                }
-            }
-        *out = (struct evidence_size){moment[0], sqrt(fmax(0, moment[1] - moment[0] * moment[0])),
-                                      sqrt(before[1] - before[0] * before[0])};
+        for (int j = 0; j < points; j++) {
+            double share = (j + 0.5) / points,
+                   x = size->prior == PRIOR_FLAT ? lower + share * (upper - lower)
+                                                 : decades_value(size, upper, share * decades_range(size)),
+                   a = (x - size->neutral) / item->unit;
+            sum = log_sum(sum, along * a - square * a * a / 2);
+        }
         return sum - log(points);
     }
     double deviation = (size->prior == PRIOR_LOG_NORMAL ? size->scale * size->neutral : deviation_of(size, lower, upper)) /

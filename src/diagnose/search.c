@@ -25,7 +25,7 @@
 #define OTHER_SIZE 4.0  /* times: of one that spans decades */
 #define AT_END     1e-3 /* of the length */
 #define PROFILES   24   /* of causes in sets that are */
-#define SEEN       0.7  /* of the deviation of a size before the data: what they leave where they see it */
+#define SEEN       0.9  /* of the deviation of a size before the data: what they leave where they see it */
 #define OF_BEST    5.0  /* in ln P below the best one, at most */
 
 /* Whether a set stands elsewhere than the same causes found beside another one: its fit may have ended in another minimum. */
