@@ -372,6 +372,66 @@ POOL_TEST(a_mode_that_rides_along_the_speed_is_critical_where_it_comes_and_where
     }
 }
 
+/* Overdamped at standstill and at the highest speed, there between 2,500 and 8,000 rpm: Im lambda = sqrt(k/m - (c/m)^2), c that
+ * of one bearing, rises from 0 through the speed before the second row, and the speed comes to it behind. */
+POOL_TEST(a_mode_that_is_overdamped_at_both_ends_is_critical_between)
+{
+    const double k = 6e6, m = 50, row[2] = {0, 2500}, damping[2] = {1e6, 10};
+    const char *path = folder_write("both.csv", "speed_rpm,kxx,kyy,cxx,cyy\n0,3e6,3e6,1e6,1e6\n2500,3e6,3e6,10,10\n"
+                                                "8000,3e6,3e6,10,10\n12000,3e6,3e6,1e6,1e6\n");
+    double low = row[0], high = row[1];
+    struct running_case c;
+    while (high - low > 1e-7) {
+        double rpm = (low + high) / 2, own = damping[0] + (damping[1] - damping[0]) * (rpm - row[0]) / (row[1] - row[0]),
+               square = k / m - own / m * own / m;
+        *(square > rpm * RPM * rpm * RPM ? &high : &low) = rpm;
+    }
+    const double expected[2] = {low, sqrt(k / m) / RPM};
+    for (int count = 2; count < 100; count += 49) {
+        assert_int_equal(running_case_open(mass_between(path), 15000, count, 0, &c), ROTID_OK);
+        assert_int_equal(c.speeds.ncritical_speeds, 4);
+        for (int i = 0; i < 4; i++)
+            assert_close(c.speeds.critical_speeds[i].speed_rpm, expected[i / 2], 1e-4, 0);
+        running_case_close(&c);
+    }
+}
+
+/* Two modes that rise through the speed between the same two rows, where a long step of one goes on to the other. Reference: the
+ * eigenvalues of elements of a program of its own in numpy. */
+POOL_TEST(two_modes_that_cross_between_the_same_speeds_are_both_found)
+{
+    const char *one = folder_write("one.csv", "speed_rpm,kxx,kxy,kyx,kyy,cxx,cxy,cyx,cyy\n"
+                                              "18837.77,7382329.8,1547721,-1547721,9581981,635.2304,0,0,635.2304\n"
+                                              "18936.8592,965557666,123540736,-123540736,1415956110,173.4515,0,0,173.4515\n"
+                                              "21600.2605,14990857.7,546174.46,-546174.46,10579941,4053.753,0,0,4053.753\n"
+                                              "38172.0813,94053722.6,20890438,-20890438,183994888,1298.679,0,0,1298.679\n"),
+               *other = folder_write("other.csv", "speed_rpm,kxx,kxy,kyx,kyy,cxx,cxy,cyx,cyy\n"
+                                                  "17560.5388,442102560,51395940,-51395940,685503830,10137.33,0,0,10137.33\n"
+                                                  "18901.1453,382948609,77410632,-77410632,239248174,30739.93,0,0,30739.93\n"
+                                                  "28125.8085,5709640.8,39835.158,-39835.158,5728940.4,904.1867,0,0,904.1867\n"
+                                                  "32218.1498,957716750,63575318,-63575318,1213213923,5020.132,0,0,5020.132\n");
+    const char *deck = pool_format(
+        &test_pool,
+        "*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=s\n0.495, 0.078, 0, 7\n0.402, "
+        "0.035, 0, 4\n0.347, 0.098, 0, 5\n*RUNNING\n*DISK\n0, 9.19, 0.01003028, 0.01892568\n*DISK\n0.346, 2.08, 0.001707413, "
+        "0.003476678\n*DISK\n0, 36.89, 0.7701974, 1.01797539\n*BEARING, FILE=%s\n0.488\n*BEARING, FILE=%s\n1.126\n",
+        one, other);
+    static const double to[] = {35000, 40000};
+    for (int i = 0; i < 2; i++) {
+        struct running_case c;
+        double found[3];
+        int count = 0;
+        assert_int_equal(running_case_open(deck, to[i], 2, 0, &c), ROTID_OK);
+        for (int j = 0; j < c.speeds.ncritical_speeds && count < 3; j++)
+            if (c.speeds.critical_speeds[j].speed_rpm > 26000 && c.speeds.critical_speeds[j].speed_rpm < 30000)
+                found[count++] = c.speeds.critical_speeds[j].speed_rpm;
+        assert_int_equal(count, 2);
+        assert_close(found[0], 28596.1, 2e-4, 0);
+        assert_close(found[1], 28712.9, 2e-4, 0);
+        running_case_close(&c);
+    }
+}
+
 /* Between rows of a table whose damping rises beyond critical Im lambda = sqrt(k/m - (c/2m)^2) falls from above the speed to 0,
  * and comes back. Both ends of such a row are speeds of the diagram, and at one of them there is no mode. */
 POOL_TEST(a_mode_that_is_overdamped_at_the_next_row_has_crossed_the_speed)

@@ -141,23 +141,35 @@ static int find_divergence(struct pool *pool, struct system *s, struct pair *all
     return status;
 }
 
-/* Modes above those that are followed and that grow at one of the speeds, and what grows without whirl. Of a mode in the upper
- * half of the basis, which does not tell what becomes of it, the frequency is kept. */
-static int add_growing(struct pool *pool, struct system *s, struct pair *all, struct tracks *t)
+/* Whether bearings change with the speed: a mode may then be overdamped at the first speed and at the last one, and be there
+ * between. */
+static int has_tables(const struct system *s)
+{
+    int any = 0;
+    for (int i = 0; i < s->machine->nbearing; i++)
+        any |= s->machine->bearing[i].film.count > 1 || s->machine->bearing[i].pedestal.count > 1;
+    return any;
+}
+
+/* Modes that are not followed yet: those above `limit` that grow at one of the speeds, with tables of bearings those below it,
+ * and what grows without whirl. Of a mode that grows in the upper half of the basis, which does not tell what becomes of it, the
+ * frequency is kept. */
+static int add_others(struct pool *pool, struct system *s, struct pair *all, double limit, struct tracks *t)
 {
     double *work = POOL_ARRAY(pool, double, (size_t)s->size *(size_t)s->size), real;
-    int count, status = work ? ROTID_OK : ROTID_ERROR_MEMORY;
+    int count, status = work ? ROTID_OK : ROTID_ERROR_MEMORY, tables = has_tables(s);
     t->diverges = NAN;
     for (int i = (t->nspeed - 1) % 2; i < t->nspeed && !status; i += 2) { /* every second one, and the highest */
-        int first = t->nmode;
-        if (!may_grow(s, t->speed[i], work))
+        int first = t->nmode, followed = tables || i == t->nspeed - 1, may = may_grow(s, t->speed[i], work);
+        if (!followed && !may)
             continue;
         status = pairs_all(pool, s, t->speed[i], &count, all, &real);
-        if (!status && real > 0 && isnan(t->diverges))
+        if (!status && may && real > 0 && isnan(t->diverges))
             status = find_divergence(pool, s, all, t->speed[i > 1 ? i - 2 : 0], t->speed[i], &t->diverges);
         for (int j = 0; j < count && !status && t->nmode < t->room; j++) {
-            int known = !grows(&all[j]) || settle(s, t->speed[i], &all[j]) || !grows(&all[j]);
-            if (!known && cimag(all[j].lambda) > s->highest / 2) {
+            int below = followed && cimag(all[j].lambda) < limit, known = !below && !grows(&all[j]);
+            known = known || settle(s, t->speed[i], &all[j]) || (!below && !grows(&all[j]));
+            if (!known && !below && cimag(all[j].lambda) > s->highest / 2) {
                 t->beyond = fmax(t->beyond, cimag(all[j].lambda));
                 known = 1;
             }
@@ -196,20 +208,7 @@ int tracks_make(struct pool *pool, struct system *s, int nspeed, const double *s
     }
     for (int i = 0; i < last && !status; i++)
         step_all(s, t, 0, i, i + 1);
-    int followed = t->nmode;
-    if (!status)
-        status = pairs_all(pool, s, speed[last], &count, all, NULL);
-    for (int i = 0; i < count && !status && cimag(all[i].lambda) < limit && t->nmode < t->room; i++) {
-        int known = settle(s, speed[last], &all[i]);
-        for (int m = 0; m < t->nmode && !known; m++)
-            known = are_same(s, track_at(t, m, last), &all[i]);
-        if (known)
-            continue;
-        status = add_mode(pool, s, t, &all[i], last);
-    }
-    for (int i = last; i > 0 && followed < t->nmode && !status; i--)
-        step_all(s, t, followed, i, i - 1);
-    return status ? status : add_growing(pool, s, all, t);
+    return status ? status : add_others(pool, s, all, limit, t);
 }
 
 ORDER_BY(by_speed, struct critical, it->speed, 0)
@@ -252,10 +251,13 @@ static int cross(struct system *s, double from, double to, double h, int least, 
     return !(fabs(cimag(c->pair.lambda) - h * c->speed) < (s->hysteretic ? JUMP : CROSSED) * h * c->speed); /* two modes */
 }
 
-/* Whether the last one is the same: a jump may end in the next interval. */
+/* Whether that mode has it: a jump may end in the next interval. */
 static int is_known(int count, const struct critical *all, const struct critical *c)
 {
-    return count && all[count - 1].mode == c->mode && fabs(all[count - 1].speed - c->speed) < 1e-9 * c->speed;
+    int any = 0;
+    for (int i = 0; i < count; i++)
+        any |= all[i].mode == c->mode && fabs(all[i].speed - c->speed) < 1e-9 * c->speed;
+    return any;
 }
 
 /* Whether another mode has it. */
@@ -319,9 +321,10 @@ struct crossings {
     struct system *system;
     double h;
     struct pair near;
+    int least; /* steps through half a bracket */
     int count;
     struct critical *critical;
-    double missed;
+    int lost; /* crossings that were not found, or that another mode has */
 };
 
 /* The crossings of mode m between two speeds. Where the mode may come to h W and turn back it is followed to where it turns. */
@@ -344,7 +347,7 @@ static int find_between(struct crossings *all, int m, int splits, double from, c
     if (!isnan(turn)) {
         pair_copy(s->size, a, &c.pair);
         if (pair_follow(s, from, turn, 1, &c.pair)) {
-            all->missed = fmin(all->missed, from);
+            all->lost++;
             return ROTID_OK;
         }
         int status = find_between(all, m, splits - 1, from, a, turn, &c.pair);
@@ -357,34 +360,40 @@ static int find_between(struct crossings *all, int m, int splits, double from, c
             return ROTID_ERROR_MEMORY;
         return ROTID_OK;
     }
-    /* a long step may go straight on from one locus to another one where short ones veer: then the other one crosses */
-    int lost = 1, taken = 0;
-    for (int least = 1; least <= FINEST && lost; least *= 16)
-        for (int back = 0; back < 2 && lost; back++) {
-            pair_copy(s->size, back ? b : a, &c.pair);
-            lost = cross(s, back ? to : from, back ? from : to, h, least, &c, all->near);
-            taken = !lost && (back || least > 1) && is_taken(s, all->count, all->critical, &c);
-        }
-    if (lost)
-        all->missed = fmin(all->missed, from);
-    else if (!taken && !is_known(all->count, all->critical, &c) && POOL_ADD(all->pool, all->critical, all->count, &c))
-        return ROTID_ERROR_MEMORY;
-    return ROTID_OK;
+    int known = 0, found = 0;
+    for (int back = 0; back < 2 && !found; back++) {
+        pair_copy(s->size, back ? b : a, &c.pair);
+        found = !cross(s, back ? to : from, back ? from : to, h, all->least, &c, all->near);
+        known = found && is_known(all->count, all->critical, &c);
+        found = found && (known || !is_taken(s, all->count, all->critical, &c));
+    }
+    all->lost += !found;
+    return found && !known && POOL_ADD(all->pool, all->critical, all->count, &c) ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
+/* A long step may go straight on from one locus to another one where short ones veer, and end at the crossing of the other: the
+ * modes that cross between two speeds then all take shorter ones. */
 int criticals_find(struct pool *pool, struct system *s, const struct tracks *t, double h, int *count, struct critical **critical,
                    double *missed)
 {
-    struct crossings all = {.pool = pool, .system = s, .h = h, .missed = NAN};
+    struct crossings all = {.pool = pool, .system = s, .h = h};
     int status = ROTID_OK;
-    for (int m = 0; m < t->nmode; m++)
-        for (int i = 0; i + 1 < t->nspeed && !status; i++)
-            status = find_between(&all, m, SPLITS, t->speed[i], track_at(t, m, i), t->speed[i + 1], track_at(t, m, i + 1));
+    *missed = NAN;
+    for (int i = 0; i + 1 < t->nspeed && !status; i++) {
+        int before = all.count;
+        all.lost = 1;
+        for (all.least = 1; all.least <= FINEST && all.lost && !status; all.least *= 16) {
+            all.count = before;
+            all.lost = 0;
+            for (int m = 0; m < t->nmode && !status; m++)
+                status = find_between(&all, m, SPLITS, t->speed[i], track_at(t, m, i), t->speed[i + 1], track_at(t, m, i + 1));
+        }
+        *missed = all.lost ? fmin(*missed, t->speed[i]) : *missed;
+    }
     if (all.count)
         qsort(all.critical, (size_t)all.count, sizeof *all.critical, by_speed);
     *count = all.count;
     *critical = all.critical;
-    *missed = all.missed;
     return status;
 }
 
