@@ -20,7 +20,6 @@
 
 #include <stdatomic.h>
 
-#include "base/base.h"
 #include "diagnose/diagnose.h"
 #include "model/model.h"
 #include "record/record.h"

@@ -1,7 +1,4 @@
 /* A deck for hosts: read once, then only read from. */
-#include <math.h>
-#include <string.h>
-
 #include "api/api.h"
 #include "deck/deck.h"
 

@@ -1,7 +1,5 @@
 #include "api/api.h"
 
-#include <math.h>
-
 #define SHARED 0.99 /* probability of the explanations that are listed */
 
 static rotid_cause cause_of(struct pool *pool, const struct candidate *c)

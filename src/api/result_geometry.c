@@ -1,7 +1,5 @@
 #include "api/api.h"
 
-#include <math.h>
-
 static rotid_material material_of(const struct material *material)
 {
     return (rotid_material){.name = material->name,

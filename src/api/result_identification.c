@@ -1,7 +1,5 @@
 #include "api/api.h"
 
-#include <math.h>
-
 #include "fit/fit.h"
 
 static void fill_parameters(struct pool *pool, const rotid_parameter *list, const rotid_fit_result *fit,

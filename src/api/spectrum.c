@@ -1,6 +1,5 @@
 /* The modes of the model of a deck, for hosts. */
 #include <limits.h>
-#include <math.h>
 
 #include "api/api.h"
 #include "deck/deck.h"

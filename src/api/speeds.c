@@ -1,6 +1,4 @@
 /* The machine in operation, for hosts. */
-#include <math.h>
-
 #include "api/api.h"
 #include "running/running.h"
 

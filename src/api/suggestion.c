@@ -1,6 +1,5 @@
 /* What to measure next, for hosts. */
 #include <limits.h>
-#include <math.h>
 
 #include "api/api.h"
 #include "deck/deck.h"

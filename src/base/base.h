@@ -20,12 +20,17 @@
  * Callers: all rooms. A job belongs to one thread at a time; a pool is never shared between threads.
  * Base must not know what a rotor, a deck or a result is, and includes no header of another room but rotid.h. */
 
+/* of the C library what most rooms need */
 #include <complex.h>
 #include <fenv.h>
 #include <locale.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "rotid.h"
 

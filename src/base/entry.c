@@ -1,9 +1,5 @@
 /* What a public routine does first and last: reasons of failures, structs that begin with their size, texts of a status, the
  * entry. */
-#include <stdarg.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "base/base.h"
 
 size_t failure_append(char *failure, size_t length, const char *text)

@@ -1,8 +1,5 @@
 #include "base/base.h"
 
-#include <stdio.h>
-#include <string.h>
-
 #ifdef __SSE2_MATH__
 #include <xmmintrin.h>
 #endif

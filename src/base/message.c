@@ -1,8 +1,5 @@
 #include "base/base.h"
 
-#include <stdarg.h>
-#include <stdio.h>
-
 void message_open(struct message_list *list, struct pool *pool)
 {
     *list = (struct message_list){.pool = pool};

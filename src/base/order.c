@@ -1,6 +1,3 @@
-#include <math.h>
-#include <stdlib.h>
-
 #include "base/base.h"
 
 ORDER_BY(of_doubles, double, *it, 0)

@@ -1,11 +1,5 @@
 #include "base/base.h"
 
-#include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 /* The header keeps the payload behind it aligned for any type. */
 union header {
     void *previous;

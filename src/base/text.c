@@ -1,7 +1,6 @@
 #include "base/base.h"
 
 #include <ctype.h>
-#include <string.h>
 
 int equal_texts(const char *a, const char *b)
 {

@@ -21,8 +21,6 @@
  *
  * Callers: model/discrete.c; solid/members.c for the elements of rods; export. The room must not know modes, data or causes. */
 
-#include "base/base.h"
-#include "rotid.h"
 #include "rotor/rotor.h"
 
 /* ------------------------------------------------------------------------------------------------------------------ mesh */

@@ -1,5 +1,3 @@
-#include <math.h>
-
 #include "beam/beam.h"
 
 HOST_COMPUTES int equivalent_cylinder(double area, double inertia, char *failure, double *outer, double *inner)

@@ -1,7 +1,5 @@
 #include "beam/beam.h"
 
-#include <string.h>
-
 /* Each element matrix is s P(phi)/(1 + phi)^q with a polynomial P of degree <= 2 in phi and four different kinds of entries:
  *   a = P11, b = P12, c = P13, d = P14, e = P22, f = P24, and the rest by symmetry of the element about its middle. */
 struct entries {

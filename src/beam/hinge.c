@@ -1,7 +1,5 @@
 #include "beam/beam.h"
 
-#include <string.h>
-
 static int place_of(const struct beam *beam, int target, int *end)
 {
     const struct mesh *mesh = &beam->mesh;

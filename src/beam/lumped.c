@@ -1,8 +1,5 @@
 #include "beam/beam.h"
 
-#include <math.h>
-#include <string.h>
-
 /* With theta = gamma - v' and the constant shear angle gamma = -6 EI/kGS c3 of v = c0 + ... + c3 z^3, both shapes are
  * (A + phi B)/(1 + phi). */
 static void numerators(double x, double l, double a[8], double b[8])

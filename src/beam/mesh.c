@@ -1,9 +1,5 @@
 #include "beam/beam.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #define NEAR 0.01 /* of an element: a node this close stands for the position */
 
 struct builder {

@@ -1,7 +1,5 @@
 #include "beam/beam.h"
 
-#include <math.h>
-
 /* The flexure function of a bar with E along the axis, G between the axis and the plane, and the contraction nu_a of the plane
  * solves a linear problem whose data are E/G and nu_a, and 1/k is G/E times an integral of the function: 1/k = c0 - c1 x with
  * x = nu_a G/E, whatever the section. Cowper's k = n (1 + nu)/(d0 + d1 nu), where x = nu/(2 (1 + nu)), gives both constants. */

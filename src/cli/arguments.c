@@ -2,9 +2,6 @@
 #include "cli/cli.h"
 
 #include <getopt.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 
 #include "export/export.h"

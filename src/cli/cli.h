@@ -20,9 +20,6 @@
  * src/mpi uses study_prepare and study_conduct; no other room includes cli. The room computes nothing: what a command finds comes
  * from rotid.h, src/run, src/ema, src/import or src/study. Only this room and src/mpi exit and handle signals. */
 
-#include <stddef.h>
-#include <stdio.h>
-
 #include "deck/deck.h"
 #include "ema/ema.h"
 #include "import/import.h"

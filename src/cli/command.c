@@ -1,7 +1,5 @@
 #include "cli/cli.h"
 
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 void command_print_messages(struct command *command)

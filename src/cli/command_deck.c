@@ -1,6 +1,4 @@
 /* The deck of a command, and the fit of its model. */
-#include <string.h>
-
 #include "api/api.h"
 #include "cli/cli.h"
 

@@ -1,5 +1,3 @@
-#include <string.h>
-
 #include "cli/cli.h"
 
 static int write_extended(struct command *command, const rotid_diagnosis *diagnosis, int code)

@@ -1,10 +1,5 @@
 #include "cli/cli.h"
 
-#include <complex.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #define DIGITS     1e-5 /* of a function: what six digits in a file leave of it */
 #define SAME_PLACE 1e-5 /* m */
 

@@ -1,5 +1,3 @@
-#include <math.h>
-
 #include "api/api.h"
 #include "cli/cli.h"
 #include "export/export.h"

@@ -1,5 +1,3 @@
-#include <string.h>
-
 #include "cli/cli.h"
 
 /* The measured functions of *FRF, FILE. */

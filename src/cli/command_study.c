@@ -1,7 +1,6 @@
 #include "cli/cli.h"
 
 #include <errno.h>
-#include <string.h>
 #include <sys/stat.h>
 
 static const char *const tables[] = {"cells", "parameters", "runs", NULL};

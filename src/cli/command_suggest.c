@@ -1,6 +1,3 @@
-#include <stdlib.h>
-#include <string.h>
-
 #include "api/api.h"
 #include "cli/cli.h"
 

@@ -1,6 +1,4 @@
 /* `rotid test`: ema, identify, diagnose, report, one after the other, each as the command that a user could type. */
-#include <string.h>
-
 #include "cli/cli.h"
 
 #define WORDS_MOST 64

@@ -1,7 +1,5 @@
 #include "cli/cli.h"
 
-#include <string.h>
-
 #define DECKS       "check modes sensitivity identify diagnose suggest speeds frf export"
 #define UNIVERSAL   "unv|uff|uf"
 #define AT(MEMBER)  .offset = offsetof(struct command, MEMBER)

@@ -1,8 +1,6 @@
 #include "deck/deck_row.h"
 #include "running/running.h"
 
-#include <string.h>
-
 static const char *const models[] = {"RODS", "TUBE", NULL}, *const axes[] = {"X", "Y", "Z", NULL},
                          *const quantities[] = {"DISPLACEMENT", "VELOCITY", "ACCELERATION", NULL}, *const ties[] = {"E:G", NULL},
                          *const discretisations[] = {"BEAM", "SOLID", NULL};

@@ -1,7 +1,3 @@
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "deck/deck_row.h"
 
 /* Beside the whole rotor; ten times and more from where solutions fail. */

@@ -24,10 +24,8 @@
  * proposes. Callers: src/api, src/cli, src/study; src/report writes numbers by deck_number_text. The room computes no K, no M, no
  * fit. */
 
-#include <stdio.h>
 #include <sys/stat.h>
 
-#include "base/base.h"
 #include "diagnose/causes/causes.h"
 #include "diagnose/diagnose.h"
 #include "run/run.h"

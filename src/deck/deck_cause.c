@@ -1,8 +1,4 @@
 /* CAUSE: what the diagnosis found, or what a user suspects. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "deck/deck_row.h"
 
 #define SAME_PLACE 1e-9 /* of the length */

@@ -2,9 +2,6 @@
  * (card_table.c), so a field that is read is compared. */
 #include "deck/deck_row.h"
 
-#include <math.h>
-#include <string.h>
-
 struct comparing {
     unsigned bits;
     const char *card;

@@ -2,7 +2,6 @@
  * part, and what no edit touches is written as it was read, character by character. */
 
 #include <ctype.h>
-#include <string.h>
 
 #include "deck/deck_row.h"
 

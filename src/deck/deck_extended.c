@@ -1,7 +1,6 @@
 /* The deck of a diagnosis, and where it is put. */
 #include "deck/deck.h"
 
-#include <string.h>
 #include <sys/stat.h>
 
 /* The states to write and the values of their unknowns: the base model where nothing was named, with the mesh of the deck where

@@ -1,11 +1,6 @@
 #include "deck/deck_row.h"
 
 #include <ctype.h>
-#include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <strings.h>
 
 int deck_say(struct deck_reader *reader, enum severity severity, struct place place, const char *format, ...)

@@ -2,11 +2,6 @@
  * once everything has been read. */
 #include "deck/deck_row.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 /* "paper QUANTITY = value, value, ..." gives a reference; any other line is text. */
 static int read_reference(struct deck_reader *reader, const struct data_line *line)
 {

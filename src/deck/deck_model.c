@@ -1,9 +1,6 @@
 /* Cards of materials and of the shaft itself. */
 #include "deck/deck_row.h"
 
-#include <math.h>
-#include <string.h>
-
 static int find_material(const struct deck_reader *reader, const char *name)
 {
     for (int i = 0; i < reader->nmaterial; i++)

@@ -1,11 +1,5 @@
 /* Cards as text, in the units of the deck that they are written into. */
 
-#include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "deck/deck_row.h"
 
 #define LINE 100 /* a card longer than this goes on in the next line */

@@ -2,8 +2,6 @@
 #include "deck/deck_row.h"
 
 #include <ctype.h>
-#include <math.h>
-#include <string.h>
 
 #define WIDER 1e3 /* bounds of the stiffness of a support, from its start */
 

@@ -1,7 +1,4 @@
 /* Cards behind *RUNNING: the machine in operation. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 #include <strings.h>
 
 #include "deck/deck_row.h"

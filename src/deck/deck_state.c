@@ -1,5 +1,3 @@
-#include <string.h>
-
 #include "deck/deck_row.h"
 
 static const char *name_of(const struct card *card)

@@ -1,9 +1,6 @@
 /* FILE on *MODES, *SENSORS, *SHAPE, *FREQUENCIES, *SHAFT and *BEAM: a table in the place of data lines. What is read of it
  * becomes data lines whose places are rows and columns of the table, so the readers of the cards judge them like any others. */
 #include <ctype.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "deck/deck.h"
 

@@ -1,7 +1,4 @@
 /* Units of a deck: SI, or those of *UNITS. */
-#include <math.h>
-#include <string.h>
-
 #include "deck/deck_row.h"
 
 #define UNITS_MOST 6

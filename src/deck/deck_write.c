@@ -9,8 +9,6 @@
 #include "deck/deck_row.h"
 #include "running/running.h"
 
-#include <math.h>
-#include <string.h>
 #include <strings.h>
 
 struct writing {

@@ -1,9 +1,5 @@
 #include "deck/deck.h"
 
-#include <stdarg.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "file/file.h"
 
 struct splitter {

@@ -2,13 +2,7 @@
  */
 #include "diagnose/diagnose.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "diagnose/causes/causes.h"
 #include "fit/fit.h"
-#include "linalg/linalg.h"
-#include "modal/modal.h"
 
 #define ROOM   2.0
 #define UNSURE 0.02 /* of the change of a shape: by the moduli that the fit has not found yet, and by the mass */

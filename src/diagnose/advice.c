@@ -2,11 +2,6 @@
  * measured yet, and where they differ most against the noise. */
 #include "diagnose/diagnose.h"
 
-#include <math.h>
-
-#include "modal/modal.h"
-#include "model/model.h"
-
 #define MORE_MODES 3 /* above the highest measured one */
 
 struct future { /* of one model */

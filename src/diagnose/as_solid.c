@@ -1,12 +1,5 @@
 #include "diagnose/diagnose.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "diagnose/causes/causes.h"
-#include "linalg/linalg.h"
-#include "run/run.h"
-
 int job_as_solid(struct pool *pool, const struct job *from, struct job *to)
 {
     const struct job copy = *from, *job = &copy; /* `to` may be the same */

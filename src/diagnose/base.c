@@ -1,12 +1,6 @@
 /* The base: the model the user has, in full and by the likelihood, on a mesh and on data that are not to blame themselves. */
 #include "diagnose/diagnose.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "diagnose/causes/causes.h"
-#include "linalg/linalg.h"
-
 static int failed(int status)
 {
     return status == ROTID_ERROR_MEMORY ? status : ROTID_OK; /* the modes are others there: nothing is known */

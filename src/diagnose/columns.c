@@ -1,11 +1,5 @@
 #include "diagnose/diagnose.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "linalg/linalg.h"
-#include "run/run.h"
-
 /* (K - lambda M)^+ on the unit vectors of the sensors, in what the cluster of the mode leaves of the space */
 static int solve_adjoints(struct columns *c, struct nelson_band *nelson, const double *zero, double *m_phi, double *unit,
                           struct columns_mode *mode)

@@ -1,9 +1,5 @@
 #include "diagnose/diagnose.h"
 
-#include <math.h>
-
-#include "diagnose/causes/causes.h"
-
 int correction_add(struct pool *pool, struct job *job, const struct correction *correction)
 {
     struct correction *more = POOL_COPY(pool, job->measurement.correction, job->measurement.ncorrection, 1);

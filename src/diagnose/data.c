@@ -1,10 +1,5 @@
 /* The data that are judged: a copy of the job's, with a noise, without what cannot be judged, and without faults. */
-#include <math.h>
-#include <string.h>
-
-#include "diagnose/causes/causes.h"
 #include "diagnose/diagnose.h"
-#include "run/run.h"
 
 #define ASSUMED_FREQUENCY_NOISE 0.003 /* of a hammer test with care, where the deck states none */
 #define LEAST_MODES             3     /* fewer cannot carry a name: with two moduli free nothing is left over */

@@ -1,7 +1,5 @@
 /* What this data set could have shown: for each cause the size that the scan finds nine times in ten, and along the axis where
  * the misfit of the base model lies. */
-#include <math.h>
-
 #include "diagnose/diagnose.h"
 
 #define POWER 1.2816 /* standard normal deviate of 90 % */

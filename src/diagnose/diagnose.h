@@ -19,9 +19,6 @@
  * Callers: api, study, suggest; deck writes the extended deck. The room reaches fits by src/run alone and the
  * properties of a cause by struct cause_kind; it must not read files, print, or change the deck. */
 
-#include <stddef.h>
-
-#include "base/base.h"
 #include "diagnose/causes/causes.h"
 #include "modal/modal.h"
 #include "model/model.h"

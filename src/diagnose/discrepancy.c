@@ -1,7 +1,5 @@
 #include "diagnose/diagnose.h"
 
-#include <math.h>
-
 static int discrepancy_of(const struct cause_kind *cause)
 {
     return cause->discrepancy_frequency > 0 || cause->discrepancy_shape > 0;

@@ -1,10 +1,5 @@
 #include "diagnose/diagnose.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "base/base.h"
-
 const char *candidate_label(struct pool *pool, const struct candidate *c)
 {
     const char *text = c->result.suspect ? pool_format(pool, "%s, a %s", c->effect.name, c->cause->id)

@@ -1,9 +1,4 @@
 /* The candidates of the search: what each fit says about its cause, and how well it predicts what was left out. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/base.h"
 #include "diagnose/diagnose.h"
 #include "fit/fit.h"
 

@@ -1,11 +1,5 @@
 #include "diagnose/diagnose.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "base/base.h"
-#include "run/run.h"
-
 #define FAR_RATE  3.0  /* chi2 a degree of freedom: what leaves less is near enough for a fit */
 #define FEWER     0.5  /* times what the others leave */
 #define AS_WELL   2.0  /* with the modes that were left out */

@@ -13,14 +13,6 @@
  * laplace.c with its numbers as unknowns. */
 #include "diagnose/diagnose.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "base/base.h"
-#include "diagnose/causes/causes.h"
-#include "linalg/linalg.h"
-#include "modal/modal.h"
-
 #define LEAST_SENSORS 5    /* fewer cannot tell a channel from the rotor */
 #define LEAST_COPY    1e-6 /* of the noise: the last digit of a reading, */
 #define MOST_COPY     1.0  /* and where a copy is none */

@@ -1,8 +1,5 @@
 #include "diagnose/diagnose.h"
 
-#include <math.h>
-#include <string.h>
-
 #define LISTED 3 /* causes of a parameter */
 
 /* What a list is made of. */

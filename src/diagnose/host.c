@@ -3,11 +3,6 @@
  *   model   K(x) + sum over the set of dK(x, c), M alike: the unknowns are those of the host, then the values of the causes
  *   search  nothing, every single cause, then the likeliest sets with one cause more or less (SETS of them, within WITHIN of the
  * best) result  probabilities, marginals, and the host's unknowns averaged over all explanations */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/base.h"
 #include "diagnose/diagnose.h"
 #include "fit/fit.h"
 

@@ -1,7 +1,5 @@
 #include "diagnose/diagnose.h"
 
-#include <string.h>
-
 const struct effect_parameter_name *candidate_parameter(const struct candidate *candidate, int p)
 {
     const struct effect_kind *kind = candidate->effect.kind;

@@ -11,12 +11,7 @@
  *              squared exponentials over the sensors, diagonalised once a mode; A log-uniform, apart for frequencies and shapes;
  *              unknowns and scales of the shapes are estimated in that metric
  *   columns    of the scan: one size, linear: the same integral in closed form at each place and width */
-#include <math.h>
-#include <string.h>
-
-#include "base/base.h"
 #include "diagnose/diagnose.h"
-#include "linalg/linalg.h"
 
 #define NOISE_STATED  0.15 /* deviation of ln of the noise: stated by the user, */
 #define NOISE_ASSUMED 1.5  /* or assumed */

@@ -1,10 +1,5 @@
 #include "diagnose/diagnose.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "linalg/linalg.h"
-
 double shape_difference(const struct job *job, int k, double mac)
 {
     double sum = 0, largest = 0;

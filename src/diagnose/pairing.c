@@ -1,9 +1,5 @@
 #include "diagnose/diagnose.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "base/base.h"
 #include "fit/fit.h"
 
 #define UNEXPLAINED 1e-3 /* p-value of the whole chi2 */

@@ -5,11 +5,6 @@
  *   list     of the sets that the search (search.c) finds, each with its evidence (laplace.c), and what follows of their
  *            probabilities: marginals of causes, moduli averaged over all
  *   run-up   measured critical speeds multiply each of the likeliest by their probability under it (runup_learn) */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/base.h"
 #include "diagnose/diagnose.h"
 #include "fit/fit.h"
 #include "running/running.h"

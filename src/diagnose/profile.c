@@ -13,10 +13,6 @@
  *   valley     to where f is TAIL: minima inside are this one, those beyond are explanations of their own */
 #include "diagnose/diagnose.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "base/base.h"
 #include "fit/fit.h"
 
 #define NEAR    0.01 /* of the range: as near as an end is looked for, */

@@ -1,8 +1,5 @@
 #include "diagnose/diagnose.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "fit/fit.h"
 
 #define PROMISES   10.0 /* drop of chi2 from which the mesh of a solid is worth another fit */

@@ -1,12 +1,7 @@
 /* The search once: scan, chance, explanations; and again where they show that the data are at fault. */
 #include "diagnose/diagnose.h"
 
-#include <math.h>
-
-#include "base/base.h"
-#include "diagnose/causes/causes.h"
 #include "fit/fit.h"
-#include "linalg/linalg.h"
 
 /* The level of the noise of the shapes: judged by what the best model so far leaves, said, used from there on. */
 

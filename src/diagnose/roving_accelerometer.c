@@ -1,10 +1,6 @@
 #include "diagnose/diagnose.h"
 
-#include <math.h>
-
 #include "fit/fit.h"
-#include "rotid.h"
-#include "run/run.h"
 
 #define LEAST_DOF   3
 #define FALSE_ALARM 0.005  /* one-sided: that of the other faults of the measurement chain */

@@ -1,10 +1,6 @@
 #include "diagnose/diagnose.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "fit/fit.h"
-#include "linalg/linalg.h"
 
 #define MOST_PLACES 250  /* along the axis; meshes are rarely finer */
 #define INSEPARABLE 1e-6 /* of a column is left when what is fitted is taken out: rounding */

@@ -1,9 +1,4 @@
 /* Which causes at which targets there are to look for. */
-#include <math.h>
-#include <string.h>
-
-#include "base/base.h"
-#include "diagnose/causes/causes.h"
 #include "diagnose/diagnose.h"
 
 #define SAME_LENGTH 1e-9 /* relative: lengths of two states that are one */

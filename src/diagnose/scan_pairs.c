@@ -3,10 +3,7 @@
  * With unit columns a and b, r the residual, all projected, and rho = a'b, the amplitudes s, t within their bounds minimise
  * |r + s a + t b|^2 = |r|^2 + 2 s a'r + 2 t b'r + s^2 + t^2 + 2 rho s t; both free at s = -(a'r - rho b'r)/(1 - rho^2), t alike.
  */
-#include <math.h>
-
 #include "diagnose/diagnose.h"
-#include "linalg/linalg.h"
 
 #define THIN  32   /* columns of a candidate, over its places and widths */
 #define ALIKE 0.98 /* |rho|, from which two columns are one */

@@ -5,11 +5,6 @@
  * place to which the starts of a cause lead is an explanation of its own. What was not fitted enters by its columns; places and
  * widths that are free are integrated over at last (profile.c); something else comes beside the likeliest, where it leads beside
  * every single cause. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/base.h"
 #include "diagnose/diagnose.h"
 #include "fit/fit.h"
 

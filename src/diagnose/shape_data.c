@@ -1,5 +1,3 @@
-#include <stddef.h>
-
 #include "diagnose/diagnose.h"
 
 double shape_data_model(const struct shape_data *data, int k, double z)

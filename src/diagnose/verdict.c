@@ -1,10 +1,6 @@
 /* The verdict: UNEXPLAINED: something else above one half; NAMED: marginals of VERDICT_NAMED and more, placed in one interval, in
  * the model that has nothing else or, where that is next to excluded, in the likeliest one; ADEQUATE: nothing leads, no cause
  * above VERDICT_HARMLESS, the odds of the rest less than ODDS times those before; else AMBIGUOUS. */
-#include <math.h>
-#include <string.h>
-
-#include "base/base.h"
 #include "diagnose/diagnose.h"
 #include "fit/fit.h"
 

@@ -1,8 +1,5 @@
 #include "ema/ema.h"
 
-#include <math.h>
-#include <string.h>
-
 static void smooth_variance(int n, int half, const double *raw, double *smooth)
 {
     double mean = 0;

@@ -1,7 +1,5 @@
 #include "ema/ema.h"
 
-#include <math.h>
-
 #define EARLY          64 /* lines */
 #define DEAD_SHARE     1e-3
 #define TWIN_SHARE     1e-6

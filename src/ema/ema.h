@@ -24,10 +24,6 @@
  *
  * src/cli calls it for rotid ema; src/import writes its modes to a file, src/report shows them. It knows no rotor and no file. */
 
-#include <stddef.h>
-
-#include "base/base.h"
-#include "rotid.h"
 #include "signal/signal.h"
 
 /* ------------------------------------------------------------------------------------------------------------------ band */

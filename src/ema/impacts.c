@@ -1,8 +1,5 @@
 #include "ema/ema.h"
 
-#include <math.h>
-#include <string.h>
-
 #define ITERATIONS 5
 
 struct jackknife {

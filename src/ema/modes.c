@@ -1,6 +1,3 @@
-#include <math.h>
-#include <stdlib.h>
-
 #include "ema/ema.h"
 
 ORDER_BY(by_frequency, double complex, cimag(*it), 0)

@@ -1,8 +1,5 @@
 #include "ema/ema.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "linalg/linalg.h"
 
 #define REACH         0.012

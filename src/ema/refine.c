@@ -1,8 +1,5 @@
 #include "ema/ema.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "linalg/linalg.h"
 
 #define STEP_TOLERANCE 1e-10 /* of the half bandwidth */

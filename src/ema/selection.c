@@ -1,7 +1,5 @@
 #include "ema/ema.h"
 
-#include <math.h>
-
 #define LEAST_SHARE    0.05
 #define OVERDAMPED     0.2
 #define MOST_UNCERTAIN 0.2

@@ -1,9 +1,5 @@
 #include "ema/ema.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "linalg/linalg.h"
 
 #define STEPS   60

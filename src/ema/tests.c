@@ -1,8 +1,5 @@
 /* Modes of several tests of one structure: their means, and the scatter from test to test, which holds what one test does not
  * show: sensors put on again, another day, another hand. */
-#include <math.h>
-#include <string.h>
-
 #include "ema/ema.h"
 
 #define ALIKE_MAC       0.8  /* of the shapes of one mode in two tests */

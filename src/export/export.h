@@ -19,8 +19,6 @@
  * Signs: a node has v and theta = -dv/dz; DMIG has R2 = dv/dz, so entries between a deflection and a rotation change their sign.
  * The room reads no deck and fits nothing: the caller hands over the identification. */
 
-#include <stdio.h>
-
 #include "model/model.h"
 #include "report/report.h"
 #include "result/result.h"

@@ -1,8 +1,5 @@
 #include "export/export.h"
 
-#include <math.h>
-#include <stddef.h>
-
 static void place_chain(const struct mesh *mesh, const struct chain *chain, double end, const char *member,
                         struct export_node *node)
 {

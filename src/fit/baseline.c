@@ -1,9 +1,5 @@
 #include "fit/fit.h"
 
-#include <math.h>
-
-#include "base/base.h"
-
 #ifndef WITH_NLOPT
 #define WITH_NLOPT 1
 #endif

@@ -1,9 +1,5 @@
 #include "fit/fit.h"
 
-#include <math.h>
-#include <stddef.h>
-#include <string.h>
-
 #define SATURATED 1e-6
 #define NOTHING   1e-13 /* of the largest entry of J in y: below, a column is the rounding of the others */
 

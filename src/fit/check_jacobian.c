@@ -1,9 +1,6 @@
 #include <float.h>
-#include <math.h>
-#include <string.h>
 
 #include "base/base.h"
-#include "rotid.h"
 
 #define STEPS  16  /* at most: the last is 2^-15 of the first */
 #define FIRST  0.1 /* of the scale */

@@ -1,11 +1,6 @@
 #include <limits.h>
-#include <math.h>
 
-#include "base/base.h"
 #include "fit/fit.h"
-#include "linalg/linalg.h"
-#include "modal/modal.h"
-#include "rotid.h"
 
 #define INSIDE                                                                                                                   \
     9 /* times the way to the nearest bound, at most, is the scale of a parameter: its longest step is a tenth of that */

@@ -1,12 +1,6 @@
 #include <limits.h>
-#include <math.h>
-#include <string.h>
 
-#include "base/base.h"
 #include "fit/fit.h"
-#include "linalg/linalg.h"
-#include "modal/modal.h"
-#include "rotid.h"
 
 #define UNSEEN       1e-11 /* of the largest column of the Jacobian */
 #define RANK         1e-10 /* singular values below this part of the largest are rounding */

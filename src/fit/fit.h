@@ -18,9 +18,7 @@
  * Callers: run/identify.c and hosts; diagnose, suggest, report, page, ... for quantiles and the rules of interval.c. The only
  * room that calls NLopt. It must not know rotors or causes, nor how measured modes were paired: it fits the numbers given. */
 
-#include "base/base.h"
 #include "modal/modal.h"
-#include "rotid.h"
 
 /* -------------------------------------------------------------------------------------------------------------- baseline */
 

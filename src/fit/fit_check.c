@@ -1,11 +1,5 @@
 #include "fit/fit.h"
 
-#include <math.h>
-
-#include "base/base.h"
-#include "linalg/linalg.h"
-#include "modal/modal.h"
-
 /* y is of the size of 1/chi: it has to have a square, and a small part of it to stand out against 1e-24, where steps end */
 #define CHI_LEAST 1e-50
 #define CHI_MOST  1e6

@@ -1,8 +1,5 @@
 #include "fit/fit.h"
 
-#include <math.h>
-#include <stdio.h>
-
 double interval_half_percent(double value, double lower, double upper)
 {
     double percent = 50 * (upper - lower) / fabs(value);

@@ -1,9 +1,4 @@
-#include <math.h>
-#include <string.h>
-
-#include "base/base.h"
 #include "linalg/linalg.h"
-#include "rotid.h"
 
 #define MU_MOST    1e16   /* beyond it a step is below rounding */
 #define MU_LEAST   1e-100 /* no damping; `floor` remains */

@@ -1,7 +1,6 @@
 #include "fit/fit.h"
 
 #include <float.h>
-#include <math.h>
 
 /* lgamma leaves the sign in a global variable, which the threads of a host would share. In POSIX since 2024, and hidden by the
  * headers of systems older than that. */

@@ -19,10 +19,6 @@
  * src/cli calls it for rotid uff, ema and frf, src/report shows the listing. The room knows neither rotor nor deck: the sensors
  * and modes of a deck's *MEASURED are read by src/deck/deck_measured.c. */
 
-#include <stdint.h>
-#include <stdio.h>
-
-#include "base/base.h"
 #include "ema/ema.h"
 #include "signal/signal.h"
 #include "uff/uff.h"

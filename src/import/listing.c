@@ -1,10 +1,5 @@
 #include "import/import.h"
 
-#include <math.h>
-#include <stdarg.h>
-#include <stdlib.h>
-#include <string.h>
-
 #define HASH_START  0xcbf29ce484222325u /* FNV-1a */
 #define HASH_FACTOR 0x100000001b3u
 /* Near a crest the values of a wave fall off as the square of the distance: three of them are equal only where a step of the

@@ -1,7 +1,4 @@
 #include <limits.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "import/import.h"
 

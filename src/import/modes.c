@@ -1,9 +1,5 @@
 #include "import/import.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { SET_NODES = 2411, VECTOR = 2, DISPLACEMENT = 8 };
 
 struct writing {

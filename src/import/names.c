@@ -1,8 +1,5 @@
 #include "import/import.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 #define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
 
 const char *name_of_set(int number)

@@ -1,7 +1,5 @@
 #include "linalg/linalg.h"
 
-#include <math.h>
-
 #include "linalg/machine.h"
 
 #define INLINE static inline __attribute__((always_inline))

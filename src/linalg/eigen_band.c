@@ -1,7 +1,6 @@
 #include <cblas.h>
 #include <float.h>
 #include <lapacke.h>
-#include <math.h>
 
 #include "linalg/linalg.h"
 

@@ -1,7 +1,6 @@
 #include "linalg/linalg.h"
 
 #include <lapacke.h>
-#include <math.h>
 
 #define FAR   1e9  /* times the shift: of larger eigenvalues mu has less than seven digits */
 #define APART 1e-4 /* of an eigenvalue: no partner of the one before */

@@ -1,7 +1,6 @@
 #include "linalg/linalg.h"
 
 #include <float.h>
-#include <math.h>
 
 #define KD         3     /* of a chain of elements with two degrees of freedom a node */
 #define ENDS       4     /* degrees of freedom at both ends of a piece */

@@ -4,7 +4,6 @@
 #include <float.h>
 #include <lapacke.h>
 #include <limits.h>
-#include <math.h>
 
 #define WIDE_COLUMNS 8     /* right-hand sides that are solved together, of wide bands */
 #define WIDE_PANEL   48    /* columns: of 32, 48, 64 and 96 the fastest one for half bands of 150 to 300 */

@@ -2,7 +2,6 @@
 
 #include <cblas.h>
 #include <lapacke.h>
-#include <math.h>
 
 #define BLOCKS     6 /* of the pairs known, in the basis, before it is condensed to them */
 #define MOST_STEPS 200

@@ -2,7 +2,6 @@
 
 #include <float.h>
 #include <lapacke.h>
-#include <math.h>
 
 /* dgels: min(m, n) + max(1, m, n) * block; the workspace is stated, not asked for, so that callers can size theirs ahead */
 #define BLOCK  16

@@ -21,13 +21,7 @@
  * Callers: every room that computes. The only room that calls LAPACKE. It must not know what a degree of freedom or parameter is;
  * derivatives of eigenvectors (Nelson) are in src/modal. */
 
-#include <complex.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <string.h>
-
 #include "base/base.h"
-#include "rotid.h"
 
 /* ----------------------------------------------------------------------------------------------------------------- arrow */
 

@@ -1,7 +1,5 @@
 #include "linalg/linalg.h"
 
-#include <math.h>
-
 #include "linalg/machine.h"
 
 #define WIDE    20 /* half band from which zeros are looked for: a finite element couples few of the rows between */

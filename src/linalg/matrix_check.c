@@ -1,7 +1,5 @@
 #include "linalg/linalg.h"
 
-#include <math.h>
-
 #define ROUNDING 1e-10 /* of the largest entry of a block: two triangles that a host computes in different ways */
 
 int indices_check(const char *name, int count, const int *index, int n, char *failure)

@@ -1,6 +1,5 @@
 /* Matrices of a host: entries where its structure has a place for them, the dense matrix they stand for, products. */
 #include <float.h>
-#include <math.h>
 
 #include "linalg/linalg.h"
 

@@ -1,8 +1,6 @@
 #include "linalg/linalg.h"
 
 #include <cblas.h>
-#include <math.h>
-#include <string.h>
 
 #include "linalg/machine.h"
 

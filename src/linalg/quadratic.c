@@ -1,5 +1,4 @@
 #include <lapacke.h>
-#include <math.h>
 
 #include "linalg/linalg.h"
 

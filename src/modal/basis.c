@@ -1,7 +1,5 @@
 #include "modal/modal.h"
 
-#include <string.h>
-
 #define LEAST 1e-6 /* of a vector's length, that it has to have beside the ones before */
 
 /* Where vectors are differentiated: dphi/dx_q of the wanted pairs. */

@@ -1,9 +1,5 @@
-#include <math.h>
-#include <string.h>
-
 #include "base/base.h"
 #include "linalg/machine.h"
-#include "rotid.h"
 
 /* A power of two that takes the largest finite component to about 1, without rounding: neither criterion depends on the scale of
  * a shape, and squares of 1e200 and 1e-200 have no double. */

@@ -1,8 +1,4 @@
 /* How an eigenpair of a host's matrices changes with them. */
-#include <math.h>
-
-#include "base/base.h"
-#include "linalg/linalg.h"
 #include "modal/modal.h"
 
 #define NORMALISED 1e-6  /* of phi' M phi from 1: what is farther off is no vector of rotid_eigenpairs */

@@ -1,10 +1,5 @@
 #include "modal/modal.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "linalg/linalg.h"
-
 #define ENOUGH     1e-9 /* relative change of V by a step of refinement whose square is below rounding */
 #define MOST_STEPS 6    /* of refinement with the factor of a wide band, which has not pivoted */
 

@@ -1,7 +1,5 @@
 #include "modal/modal.h"
 
-#include <math.h>
-
 /* Residuals of the pairs of wide bands, each step of which has its price. An eigenvalue is off by the square of its own. */
 #define NEAR_VALUE  1e-7
 #define NEAR_VECTOR 1e-9

@@ -1,7 +1,5 @@
 #include "modal/modal.h"
 
-#include <string.h>
-
 int joint_unknown(const int *parameter, int q)
 {
     return parameter ? parameter[q] : q;

@@ -1,10 +1,5 @@
 #include "modal/modal.h"
 
-#include <math.h>
-#include <stddef.h>
-
-#include "base/base.h"
-
 static int check_mode(const rotid_measured *measured, int k, char *failure)
 {
     if (!(isfinite(measured->frequency_hz[k]) && measured->frequency_hz[k] > 0))

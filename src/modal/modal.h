@@ -20,9 +20,7 @@
  * Callers: fit; run, study; diagnose/columns.c for adjoints. The room sees a rotor through rotid_model alone: it must not
  * know beams, solids, causes or decks. */
 
-#include "base/base.h"
 #include "linalg/linalg.h"
-#include "rotid.h"
 
 /* ------------------------------------------------------------------------------------------------ eigenvector derivative */
 

@@ -1,7 +1,5 @@
 #include "modal/modal.h"
 
-#include <string.h>
-
 /* The two best candidates of a mode. */
 static void best_two(int nmode, int ncandidate, const double *correlation, int mode, int *best, double *first, double *second)
 {

@@ -1,11 +1,5 @@
 #include "modal/modal.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "base/base.h"
-#include "linalg/linalg.h"
-
 /* ROTID_OK or ROTID_ERROR_MEMORY. */
 static int condensed_new(struct pool *pool, struct prediction *p)
 {

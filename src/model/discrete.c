@@ -1,12 +1,8 @@
 #include "model/model.h"
 
 #include <float.h>
-#include <math.h>
-#include <string.h>
 
-#include "beam/beam.h"
 #include "linalg/linalg.h"
-#include "solid/solid.h"
 
 int discretisation_is_solid(enum discretisation as)
 {

@@ -1,11 +1,5 @@
 #include "model/model.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-
-#include "solid/solid.h"
-
 #define CORNERS 4 /* of an element, whose first nodes they are: inner left, outer left, outer right, inner right */
 
 static const struct solid *solid_of(const struct rotor_model *model)

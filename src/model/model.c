@@ -1,10 +1,5 @@
 #include "model/model.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "beam/beam.h"
-
 static int matrices(void *user, const double *x, rotid_matrix *stiffness, rotid_matrix *mass)
 {
     struct rotor_model *model = user;

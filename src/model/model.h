@@ -18,9 +18,7 @@
  * Callers: run, diagnose, api, export, study, which give rotor_model.equations to src/modal or src/fit for modes and fits. Of
  * the rooms above only export looks into `discrete`. The room must not know measured data, residuals or fits. */
 
-#include "base/base.h"
 #include "beam/beam.h"
-#include "rotid.h"
 #include "rotor/rotor.h"
 #include "solid/solid.h"
 

@@ -1,11 +1,7 @@
 /* A page of one or more results: what it says of a fit, of modes, sensitivities, transfer functions, a modal analysis, a
  * suggestion and a study; what it rests on and where it comes from; then its name, the answers, the sections in the order in
  * which they are read. */
-#include <math.h>
-#include <string.h>
-
 #include "page/page.h"
-#include "running/running.h"
 #include "study/study.h"
 
 static void section_agreement(struct document *document, const struct result *result)

@@ -1,8 +1,5 @@
 /* A diagnosis: the verdict in the words of the verdict itself, the tiles, then what a reader asks: what did the cause change,
  * which causes are possible, is the measurement sound, where does the model miss it, which effects stay undetected. */
-#include <math.h>
-#include <string.h>
-
 #include "diagnose/causes/causes.h"
 #include "fit/fit.h"
 #include "page/page.h"

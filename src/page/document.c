@@ -1,9 +1,5 @@
 /* The page under construction, and the page as a file. */
 #include <errno.h>
-#include <math.h>
-#include <stdarg.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 
 #include "page/page.h"

@@ -1,6 +1,4 @@
 /* The verdict on an identification in plain words, the tiles, and how far to trust it. */
-#include <math.h>
-
 #include "fit/fit.h"
 #include "page/page.h"
 

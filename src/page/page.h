@@ -20,9 +20,7 @@
  * room computes nothing of a model; texts of files are escaped by html_text of src/report. */
 
 #include <cJSON.h>
-#include <stdio.h>
 
-#include "base/base.h"
 #include "report/report.h"
 #include "result/result.h"
 #include "run/run.h"

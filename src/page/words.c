@@ -1,6 +1,5 @@
 /* Texts for a person: causes by name, files without their folders. */
 #include <ctype.h>
-#include <string.h>
 
 #include "diagnose/causes/causes.h"
 #include "page/page.h"

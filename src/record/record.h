@@ -20,10 +20,7 @@
  * Callers: api, result, tools/schema; deck, export and run for the words. The room must not know how a result is
  * computed or printed: a new key is a member of rotid.h and a row here. */
 
-#include <stddef.h>
-
 #include "base/base.h"
-#include "rotid.h"
 
 /* Words of results and of cards, in the order of the constants of rotid.h; NULL behind the last. */
 

@@ -1,5 +1,3 @@
-#include <string.h>
-
 #include "record/record.h"
 
 size_t record_element_size(const struct record_field *field)

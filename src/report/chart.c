@@ -1,9 +1,6 @@
 /* Charts of one line: a signed bar, strips along the axis of the rotor. */
 #include "report/report.h"
 
-#include <math.h>
-#include <string.h>
-
 void chart_bar(char *bar, int half, double scale, double value)
 {
     double size = isfinite(value) && scale > 0 ? fabs(value) / scale * half : 0;

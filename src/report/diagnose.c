@@ -1,7 +1,5 @@
 /* A diagnosis: its tables, and `rotid diagnose` on one screen for a test engineer. */
 #include <ctype.h>
-#include <math.h>
-#include <string.h>
 
 #include "diagnose/causes/causes.h"
 #include "fit/fit.h"

@@ -1,7 +1,4 @@
 /* Modes of a test: the struct of their JSON, and what `rotid ema` shows. */
-#include <math.h>
-#include <string.h>
-
 #include "report/report.h"
 
 static struct ema_source source(const struct ema_report *r)

@@ -1,8 +1,4 @@
 /* Synthesised transfer functions: the struct of their JSON, their universal file, and what `rotid frf` shows. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "report/report.h"
 
 #define DEGREES 57.295779513082321

@@ -1,8 +1,5 @@
 #include "report/report.h"
 
-#include <math.h>
-#include <string.h>
-
 #define DASH         "\xe2\x80\x93"
 #define MINUS        "\xe2\x88\x92"
 #define NARROW_SPACE "\xc2\xa0" /* that does not break */

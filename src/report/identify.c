@@ -1,7 +1,4 @@
 /* A fit: its tables, and `rotid identify` on the screen. */
-#include <math.h>
-#include <string.h>
-
 #include "fit/fit.h"
 #include "report/report.h"
 

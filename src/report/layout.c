@@ -1,7 +1,5 @@
 #include "report/report.h"
 
-#include <string.h>
-
 /* Bytes of the next column: of a character, or one that is shown in its place. */
 static size_t next_column(const char *text)
 {

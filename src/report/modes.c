@@ -1,6 +1,4 @@
 /* What a model is and does before anything is fitted: `rotid check`, `modes`, `sensitivity` on the screen, and their tables. */
-#include <math.h>
-
 #include "report/report.h"
 
 /* ---- check */

@@ -1,9 +1,6 @@
 /* What is said of a fit and of a diagnosis, each sentence made once: for the screen, and for the page, which puts ids of causes
  * in words. How far to trust a fit; why a verdict is what it is; what is wrong with the measurement and the numbers. */
 #include <ctype.h>
-#include <math.h>
-#include <stdarg.h>
-#include <string.h>
 
 #include "diagnose/causes/causes.h"
 #include "fit/fit.h"

@@ -19,13 +19,9 @@
  * Callers: src/cli, src/page (struct table, html), src/study and src/export (files, tables). The room computes nothing: which
  * numbers are good or bad is judged in src/result/judgement.c. No other room writes files, but for the results of src/study. */
 
-#include <stdio.h>
-
-#include "base/base.h"
 #include "ema/ema.h"
 #include "import/import.h"
 #include "result/result.h"
-#include "rotid.h"
 #include "run/run.h"
 #include "uff/uff.h"
 

@@ -1,6 +1,4 @@
 /* Tables of the machine in operation. */
-#include <math.h>
-
 #include "report/report.h"
 #include "running/running.h"
 

@@ -1,7 +1,4 @@
 /* `rotid suggest` on the screen, and its tables. */
-#include <math.h>
-#include <string.h>
-
 #include "report/report.h"
 
 #define MOST_LISTED 24 /* places of a plan; more with --verbose */

@@ -1,9 +1,5 @@
 /* One table for all ways to show it: the cells are made once, here, in the units people read; three renderers write them, as CSV,
  * lines of text and HTML. Before them what they write cells by, behind them the files of --csv's tables and the screen. */
-#include <math.h>
-#include <stdarg.h>
-#include <string.h>
-
 #include "deck/deck.h"
 #include "report/report.h"
 

@@ -1,8 +1,4 @@
 /* A universal file: the struct of its JSON, its modes as tables, and what `rotid uff` shows. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "report/report.h"
 
 /* 0: memory is out. */

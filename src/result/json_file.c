@@ -1,8 +1,6 @@
 #include "result/result.h"
 
 #include <errno.h>
-#include <stdio.h>
-#include <string.h>
 #include <sys/stat.h>
 
 #include "file/file.h"

@@ -1,11 +1,6 @@
 /* JSON to a struct that has a table: values with the place where they stand, and the walk over the rows of the table. */
 #include <limits.h>
-#include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <string.h>
 
-#include "record/record.h"
 #include "result/result.h"
 
 #define PATH_MOST 512

@@ -1,11 +1,6 @@
 /* JSON of a struct that has a table: its rows one after the other, a key each. */
 #include <float.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "record/record.h"
 #include "result/result.h"
 
 struct json_writer {

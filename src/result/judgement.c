@@ -1,11 +1,7 @@
 #include "result/result.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "diagnose/diagnose.h"
 #include "fit/fit.h"
-#include "record/record.h"
 
 #define SAME 1e-3 /* relative difference of parameters that is not worth a word */
 

@@ -1,9 +1,5 @@
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "record/rows.h"
 #include "result/result.h"
+#include "record/rows.h"
 
 static const rotid_cause_value *value_of(const rotid_cause *cause, const char *name)
 {

@@ -21,10 +21,8 @@
 
 #include <cJSON.h>
 
-#include "base/base.h"
 #include "ema/ema.h"
 #include "record/record.h"
-#include "rotid.h"
 
 /* ----------------------------------------------------------------------------------------------------------- cause place */
 

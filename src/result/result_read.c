@@ -1,6 +1,3 @@
-#include <math.h>
-#include <string.h>
-
 #include "result/result.h"
 
 #define MOST_SUM 1e9 /* over all places: an int holds it */

@@ -1,6 +1,3 @@
-#include <stddef.h>
-#include <string.h>
-
 #include "rotor/rotor.h"
 
 static const double gravity = 9.81; /* m/s2: the value the paper's table of the rotor rests on */

@@ -1,7 +1,5 @@
 #include "rotor/rotor.h"
 
-#include <string.h>
-
 enum owner { OF_GROUP, OF_TIEROD, OF_SPRING, OF_DISK };
 
 static const struct {

@@ -1,7 +1,5 @@
 #include "rotor/rotor.h"
 
-#include <math.h>
-
 double rotor_length(const struct rotor *rotor)
 {
     double sum = 0;

@@ -1,5 +1,3 @@
-#include <math.h>
-
 #include "rotor/rotor.h"
 
 static double disc_area(double d)

@@ -1,8 +1,5 @@
 #include "run/run.h"
 
-#include <math.h>
-#include <string.h>
-
 #define MOST_PLACES  41   /* of the shapes, where the deck has no sensors */
 #define FITTED_MODES 6    /* where nothing was measured */
 #define SAME_STD     1e-3 /* of every frequency: all weigh the same */

@@ -1,7 +1,3 @@
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "run/run.h"
 
 #define BEYOND      3         /* modes of the model above the highest number that a measured shape may turn out to be */

@@ -1,9 +1,5 @@
 #include "run/run.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #define DEFAULT_LINES 1601 /* where the card gives no lines, as many as a usual analyser has */
 #define MOST_LINES    1000000
 

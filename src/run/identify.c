@@ -1,8 +1,5 @@
 #include "run/run.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "fit/fit.h"
 
 /* Whether fits of the job run on the coarse mesh. */

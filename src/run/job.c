@@ -1,9 +1,5 @@
 #include "run/run.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 struct place job_part_place(const struct job *job, int failed)
 {
     const struct rotor *rotor = &job->rotor;

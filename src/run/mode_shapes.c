@@ -1,7 +1,5 @@
 #include "run/run.h"
 
-#include <math.h>
-
 #define AXIS_INTERVALS   400 /* at most: 40 a half wave of a tenth mode, and no picture has many more dots across */
 #define MEMBER_INTERVALS 20  /* at least */
 

@@ -1,8 +1,5 @@
 /* From which mode measured ones are counted. A rotor on soft supports vibrates on them first, as a rigid body: whoever counts
  * what was measured calls that mode 1, whoever counts bending modes does not. Both are usual, and the data tell them apart. */
-#include <math.h>
-#include <string.h>
-
 #include "fit/fit.h"
 #include "run/run.h"
 

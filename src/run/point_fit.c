@@ -1,8 +1,5 @@
 #include "run/run.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "fit/fit.h"
 
 #define CONSTANT   1e-10  /* squared variation against the squared size: a column that rounding alone moves */

@@ -22,11 +22,9 @@
  * Callers: deck (fills jobs), diagnose, suggest, api, cli, study; result, report, page, export read the structs. The room must
  * not read files, nor know the text of decks, the catalogue of causes (a cause is an effect of the rotor here) or printing. */
 
-#include "base/base.h"
 #include "modal/modal.h"
 #include "model/model.h"
 #include "record/record.h"
-#include "rotid.h"
 #include "rotor/rotor.h"
 #include "signal/signal.h"
 

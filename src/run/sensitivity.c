@@ -1,8 +1,5 @@
 #include "run/run.h"
 
-#include <math.h>
-#include <string.h>
-
 #define POINTS   17 /* four a decade */
 #define LOWEST   1e-6
 #define HIGHEST  1e-2

@@ -1,5 +1,3 @@
-#include <math.h>
-
 #include "run/run.h"
 
 #define WITHIN       1e-8 /* of a vector: what is shown, paired and compared needs no more, and frequencies have the square of it */

@@ -1,7 +1,3 @@
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "running/running.h"
 
 #define STEP        1e-4 /* of a logarithm, on both sides: differences of matrices to 1e-8 */

@@ -1,5 +1,3 @@
-#include <math.h>
-
 #include "running/running.h"
 
 int machine_nominal(struct pool *pool, const struct machine *machine, const double *x, struct machine_values *values)

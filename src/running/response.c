@@ -1,6 +1,3 @@
-#include <math.h>
-#include <string.h>
-
 #include "running/running.h"
 
 #define GOLDEN  0.6180339887498949

@@ -28,12 +28,8 @@
  * Callers: deck fills struct machine; cli runs; result, report and page read rotid_speeds. Only model/model.h is asked for
  * matrices: the room must not know what discretises a rotor. */
 
-#include <complex.h>
-
-#include "base/base.h"
 #include "linalg/linalg.h"
 #include "model/model.h"
-#include "rotid.h"
 #include "rotor/rotor.h"
 #include "run/run.h"
 

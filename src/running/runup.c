@@ -1,6 +1,3 @@
-#include <math.h>
-#include <string.h>
-
 #include "running/running.h"
 
 #define SPEEDS 25   /* at which the modes are looked at in a search */

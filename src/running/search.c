@@ -1,6 +1,3 @@
-#include <math.h>
-#include <stdlib.h>
-
 #include "running/running.h"
 
 #define BEYOND      1.3 /* times the running range, or the third critical speed */

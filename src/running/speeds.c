@@ -1,7 +1,3 @@
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "running/running.h"
 
 #define BEYOND     1.3   /* times the running range */

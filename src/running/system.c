@@ -1,6 +1,3 @@
-#include <math.h>
-#include <string.h>
-
 #include "running/running.h"
 
 #define INDEPENDENT 1e-6 /* of the length of a static motion: less is rounding of what the basis has */

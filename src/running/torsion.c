@@ -1,8 +1,6 @@
 /* Torsional natural frequencies of the machine: the rotor of the test with the disks of the machine by their polar inertia, on
  * bearings that hold no torque. With C the covariance of the unknowns u as fitted, s of the factors c of *CHANGE,
  *   std f/f = sqrt(g'C g + sum (d ln f/d ln c s)^2),   g = d ln f/du by differences, u of machine_by_logarithm. */
-#include <math.h>
-
 #include "running/running.h"
 
 #define MODES 5

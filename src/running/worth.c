@@ -1,10 +1,6 @@
 /* Which test at rest narrows a critical speed most. With p the unknowns (their logarithms where they are above zero), C their
  * covariance as measured, g = d ln W/dp and J = d ln f/dp of the frequencies of a test with the relative deviation s
  *   Var ln W = g' (C^-1 + J'J/s^2)^-1 g + the variance by bearings, losses and pull, which no test at rest changes. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "running/running.h"
 
 #define MORE_MODES  3    /* beyond the highest measured one */

@@ -1,8 +1,6 @@
 #include "signal/signal.h"
 
 #include <kiss_fftr.h>
-#include <math.h>
-#include <string.h>
 
 /* Mean of x [n], n >= 1. */
 static double window_mean(int n, const double *x)

@@ -2,8 +2,6 @@
  * same over most of a group: shares whose field and its rates are equal where the basis is made are a class, whose part of V'K V
  * is kept for a unit of each number. What differs from its class elsewhere, as where a zone has moved on, is added element by
  * element: V'K V is that of the mesh at all values. */
-#include <string.h>
-
 #include "linalg/linalg.h"
 #include "solid/solid.h"
 

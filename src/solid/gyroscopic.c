@@ -1,7 +1,4 @@
 /* What turns with a solid of revolution, and a stiffness that is spread over a group. */
-#include <math.h>
-#include <string.h>
-
 #include "linalg/linalg.h"
 #include "solid/solid.h"
 

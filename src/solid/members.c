@@ -1,10 +1,7 @@
 #include "solid/solid.h"
 
-#include <math.h>
-
 #include "beam/beam.h"
 #include "linalg/linalg.h"
-#include "rotor/rotor.h"
 
 struct member {
     int number;

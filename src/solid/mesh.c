@@ -1,7 +1,5 @@
 #include "solid/solid.h"
 
-#include <math.h>
-
 #define AT_LINE  0.011 /* of a slice, from a line: a sensor is taken to be there, as in outline_lines, with some room */
 #define UNKNOWNS 9     /* of three nodes that an element has of its own */
 #define BAND                                                                                                                     \

@@ -1,7 +1,5 @@
 #include "solid/solid.h"
 
-#include <math.h>
-
 #include "linalg/linalg.h"
 
 static const double place[3] = {-0.77459666924148337704, 0, 0.77459666924148337704};

@@ -1,8 +1,5 @@
 #include "solid/solid.h"
 
-#include <math.h>
-#include <stdlib.h>
-
 #define MOST_HALVINGS 64 /* from one end of an interval: no two doubles are further apart */
 
 ORDER_BY(by_place, struct stop, it->at, 0)

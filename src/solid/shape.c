@@ -1,7 +1,5 @@
 #include "solid/solid.h"
 
-#include <math.h>
-
 void shape_of_element(double x, double y, double *n, double *by_x, double *by_y)
 {
     static const int cx[4] = {-1, 1, 1, -1}, cy[4] = {-1, -1, 1, 1};

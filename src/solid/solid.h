@@ -24,8 +24,6 @@
  *
  * Callers: src/model; export reads the mesh. The room must not know modes, data, or the limit of two meshes. */
 
-#include "base/base.h"
-#include "rotid.h"
 #include "rotor/rotor.h"
 
 /* ------------------------------------------------------------------------------------------------------------ elasticity */

@@ -1,7 +1,5 @@
 #include "solid/solid.h"
 
-#include <string.h>
-
 /* The element of `mesh` at a place inside the rotor. */
 static const struct solid_element *element_at(const struct solid_mesh *mesh, double z, double r)
 {

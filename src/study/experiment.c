@@ -1,9 +1,6 @@
 /* The job of one run: what happens to data on their way, data that a model makes, starts; every draw by its name. */
 #include "study/study.h"
 
-#include <math.h>
-#include <string.h>
-
 /* Random numbers that have a name instead of a place in a sequence: what a replicate draws for one purpose, mode and sensor is
  * the same in every run of it, whatever the runs leave out or who computes them. Runs that differ in a variant, in the modes
  * fitted or in the sensors kept so see the same noise, and their difference is that of the variant. */

@@ -2,9 +2,6 @@
  */
 #include "study/study.h"
 
-#include <math.h>
-#include <string.h>
-
 /* The overrides of a cell with the noise that the deck is to state, the user's first: what the plan varies it varies. NULL where
  * memory is out. */
 static struct override *overrides(struct pool *pool, const struct study *study, const struct study_cell *cell,

@@ -2,7 +2,6 @@
 #include "study/study.h"
 
 #include <errno.h>
-#include <string.h>
 #include <unistd.h>
 
 #define MOST_LISTED 20 /* stretches of missing runs that are named */

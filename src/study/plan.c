@@ -5,9 +5,6 @@
 #include "deck/deck_row.h"
 #include "study/study.h"
 
-#include <math.h>
-#include <string.h>
-
 #define DRAWS           200 /* of a run: the mean of many runs wants no more of each */
 #define MOST_REPLICATES 10000000
 #define MOST_GRID       1000

@@ -1,9 +1,6 @@
 /* One run of a study: the experiment, the fit, the diagnosis or the critical speeds of it, and the line that says so. */
 #include "study/study.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "api/api.h"
 
 #define PLACE_TOLERANCE 0.03 /* of the length of the rotor */

@@ -2,9 +2,6 @@
  * counted and found; digests of all that the runs depend on. */
 #include "study/study.h"
 
-#include <stdarg.h>
-#include <string.h>
-
 /* ---- what tells whether a deck has changed */
 
 static void digest_doubles(struct digest *digest, size_t count, const double *value)

@@ -20,12 +20,8 @@
  * Callers: src/cli/command_study.c, src/mpi (hands out runs over MPI), src/page (summary of a file). study_run knows nothing of
  * files, processes and machines. Nothing in a run depends on the clock but its times. */
 
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
 #include <sys/types.h>
 
-#include "base/base.h"
 #include "deck/deck.h"
 #include "diagnose/causes/causes.h"
 #include "diagnose/diagnose.h"

@@ -3,8 +3,6 @@
 #include "study/study.h"
 
 #include <errno.h>
-#include <math.h>
-#include <string.h>
 
 #define SAME_OBJECTIVE 1e-6  /* relative: fits that stopped at one minimum agree to the square of their step tolerance */
 #define NO_OBJECTIVE   1e-10 /* exact data leave rounding, which has no relative accuracy */

@@ -1,6 +1,4 @@
 /* The summary and the runs of a study as tables. */
-#include <math.h>
-
 #include "study/study.h"
 
 #define MOST_ERROR 10   /* different reasons that are listed */

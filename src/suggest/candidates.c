@@ -1,12 +1,5 @@
 #include "suggest/suggest.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "diagnose/diagnose.h"
-#include "run/run.h"
-
 #define OWN_RANGE 1e3 /* bounds of what has a value of its own in a state, from its start */
 
 int joint_measurement(struct pool *pool, const struct rival *a, const double *x, const struct test *test,

@@ -1,11 +1,5 @@
 #include "suggest/suggest.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "linalg/linalg.h"
-#include "rotid.h"
-
 #define MOST_PASSES 4    /* of exchanges: the second one seldom finds anything */
 #define GAIN        1e-6 /* of a value, a logarithm: less is rounding */
 

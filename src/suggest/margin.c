@@ -1,12 +1,5 @@
 #include "suggest/suggest.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "base/base.h"
-#include "diagnose/diagnose.h"
-#include "linalg/linalg.h"
-
 #define DRAWS 400 /* a chance to 0.025 */
 
 struct side { /* a rival in the state of a test */

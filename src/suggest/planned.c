@@ -1,9 +1,5 @@
 #include "suggest/suggest.h"
 
-#include <math.h>
-
-#include "run/run.h"
-
 #define SAME 1e-9 /* of the length: two positions that are one */
 
 static int find(const struct rotor *rotor, double z)

@@ -1,11 +1,6 @@
 #include "suggest/suggest.h"
 
-#include <math.h>
-#include <stdlib.h>
-
-#include "diagnose/diagnose.h"
 #include "fit/fit.h"
-#include "linalg/linalg.h"
 
 #define SHARED 0.99  /* of the explanations that are rivals */
 #define LEAST  1e-12 /* probability: what was left out of the sum may have so much */

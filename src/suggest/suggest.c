@@ -1,10 +1,5 @@
 #include "suggest/suggest.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "base/base.h"
-#include "diagnose/diagnose.h"
 #include "fit/fit.h"
 
 /* Where sensors could stand, and what they would say there: columns of parameters and of the causes of the catalogue. */

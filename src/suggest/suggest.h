@@ -18,7 +18,6 @@
  * Callers: api makes rotid_suggestion of it, deck writes the cards of a test. The room uses src/diagnose and src/run as they are:
  * it must not decide which cause is true, read files or print. */
 
-#include "base/base.h"
 #include "diagnose/diagnose.h"
 #include "run/run.h"
 

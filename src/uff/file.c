@@ -1,10 +1,6 @@
 #include "uff/uff.h"
 
 #include <limits.h>
-#include <math.h>
-#include <stdarg.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* Set 55, data at nodes: five lines of text, 6: what the data are, 7 and 8: integers and reals of the analysis, then for each
  * node its number and its values. */

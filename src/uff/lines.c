@@ -3,11 +3,6 @@
 #include <errno.h>
 #include <float.h>
 #include <limits.h>
-#include <math.h>
-#include <stdarg.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 
 #include "file/file.h"

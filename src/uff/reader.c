@@ -1,10 +1,6 @@
 #include "uff/uff.h"
 
 #include <limits.h>
-#include <math.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* ---- from the units of a file to SI */
 

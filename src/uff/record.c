@@ -1,9 +1,5 @@
 #include "uff/uff.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 static void fail(struct uff_put *put)
 {
     if (put->status == ROTID_OK)

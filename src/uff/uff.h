@@ -19,9 +19,6 @@
  * their modes, standard deviations in text lines (uff_extra_*). Numbers are those of the file: uff_si_factor gives
  * the factor to SI. The room knows neither rotor nor deck, and judges no data. */
 
-#include <stddef.h>
-#include <stdio.h>
-
 #include "base/base.h"
 
 /* ---- what sets hold */

@@ -1,7 +1,5 @@
 /* The mass of the accelerometer itself. FIXED: it stays at one sensor. MOVING: it goes from sensor to sensor; without a frequency
  * per point the measured frequency is the mean over all places, which to first order is that of mass/nsensor at every sensor. */
-#include <math.h>
-
 #include "diagnose/causes/causes.h"
 
 enum { MOVING, FIXED };

@@ -1,9 +1,5 @@
 #include "diagnose/causes/causes.h"
 
-#include <stddef.h>
-
-#include "base/base.h"
-
 /* One line a cause, in the order of reports: numbers, measurement chain, physics. Adding a cause: its file, and a line here. */
 #define CATALOGUE(X)                                                                                                             \
     X(mesh)                                                                                                                      \

@@ -1,7 +1,5 @@
 #include "diagnose/causes/causes.h"
 
-#include <math.h>
-
 int cause_of_beam(const struct cause_kind *cause)
 {
     return cause->solid || (cause->effect && cause->effect->section);

@@ -17,7 +17,6 @@
  * Callers: diagnose, suggest by way of it; deck (CAUSE cards), api, report, page and study for names and words. A cause must not
  * know the mesh, the modes or the scan: it states factors, compliances and masses, and src/beam and src/solid apply them. */
 
-#include "base/base.h"
 #include "rotor/rotor.h"
 #include "run/run.h"
 

@@ -3,8 +3,6 @@
  *   A' / A = (s^2 D^2 - d^2)/(D^2 - d^2),   I' / I = (s^4 D^4 - d^4)/(D^4 - d^4)
  *
  * E by the latter, G and rho by the former: exact in EI and rho A; the shear coefficient and the rotary inertia follow A. */
-#include <math.h>
-
 #include "diagnose/causes/causes.h"
 
 /* (s^n - q)/(1 - q), q = (d/D)^n, or its derivative. */

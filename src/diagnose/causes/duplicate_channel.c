@@ -1,6 +1,4 @@
 /* A channel that repeats another one: what it says about its own place is nothing, so it counts as not measured. */
-#include <math.h>
-
 #include "diagnose/causes/causes.h"
 
 static int correct(struct pool *pool, struct job *job, const struct correction *correction)

@@ -2,8 +2,6 @@
  * the shaft's material out to the hub's diameter; towards its ends the stress has not spread into the hub yet, or the fit is
  * loose, and there the hub is a mass only. Frequencies are nearly linear in such a share, while a share of EI would be used up by
  * its first hundredth where a hub is three times as thick as the shaft. */
-#include <math.h>
-
 #include "diagnose/causes/causes.h"
 
 /* Mean over the stretch of what the compliances of bending and shear lose. */

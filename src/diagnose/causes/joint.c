@@ -1,7 +1,5 @@
 /* An interface that gives way: a rotational spring of this flexibility between two groups. What hangs on which side of it is
  * stated in beam/hinge.h. */
-#include <math.h>
-
 #include "diagnose/causes/causes.h"
 
 /* last segment of the group, or -1 where nothing follows it */

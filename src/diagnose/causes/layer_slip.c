@@ -2,8 +2,6 @@
  * end (shear lag of a bonded or shrunk ring). E and G of the layer times 1 - cosh(x/t)/cosh(a/t), x from its middle, a half of
  * its length. Beside the parts that it lies on its stiffness adds, so that of a stretch the mean of the stiffness counts, which
  * may be nothing at the very end. */
-#include <math.h>
-
 #include "diagnose/causes/causes.h"
 
 static const double at_end = 1 - 1e-9; /* of a */

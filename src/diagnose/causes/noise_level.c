@@ -1,7 +1,4 @@
 /* The stated noise is not that of the data: every standard deviation of a block times one factor. */
-#include <math.h>
-
-#include "base/base.h"
 #include "diagnose/causes/causes.h"
 
 static int correct(struct pool *pool, struct job *job, const struct correction *correction)

@@ -1,7 +1,5 @@
 #include "diagnose/causes/causes.h"
 
-#include <math.h>
-
 int sensor_find(const struct job *job, int id)
 {
     for (int s = 0; s < job->rotor.nsensor; s++)

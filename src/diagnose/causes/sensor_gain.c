@@ -1,6 +1,4 @@
 /* A channel reads gain times the truth in every mode: wrong calibration of one accelerometer. */
-#include <math.h>
-
 #include "diagnose/causes/causes.h"
 
 static int correct(struct pool *pool, struct job *job, const struct correction *correction)

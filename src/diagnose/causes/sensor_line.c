@@ -1,7 +1,5 @@
 /* All positions of the sensors at once: counted from the other end, from a wrong origin, with a wrong length. The distance from
  * the end that they are counted from is shift + scale z, z the stated position. */
-#include <math.h>
-
 #include "diagnose/causes/causes.h"
 
 static int correct(struct pool *pool, struct job *job, const struct correction *correction)

@@ -1,8 +1,5 @@
 /* A sensor that sits elsewhere than stated, by a shift along the axis. */
-#include <math.h>
-
 #include "diagnose/causes/causes.h"
-#include "model/model.h"
 
 /* Whether sensor s at z has a node of its own. ROTID_OK or ROTID_ERROR_MEMORY. */
 static int stands_alone(struct pool *scratch, const struct rotor *stated, int s, double z, int *alone)

@@ -1,9 +1,5 @@
 #include "diagnose/causes/causes.h"
 
-#include <math.h>
-
-#include "rotor/rotor.h"
-
 const double gauss_place[GAUSS_POINTS] = {-0.861136311594052575223946, -0.339981043584856264802666, 0.339981043584856264802666,
                                           0.861136311594052575223946};
 const double gauss_weight[GAUSS_POINTS] = {0.347854845137453857373064, 0.652145154862546142626936, 0.652145154862546142626936,

@@ -7,8 +7,6 @@
  * outermost diameter, and the cone cuts off each of its rings as far as they lie outside. The shear coefficient is Cowper's of
  * the annulus inside D(z): beside a bore of a quarter of the own diameter it falls by 12 % where the cone leaves 0.64 of that.
  * That of a section with layers stays. */
-#include <math.h>
-
 #include "diagnose/causes/causes.h"
 
 #define STEPS_AT_ONCE 64 /* that reach into one element: those farther to the right are left out, which no real rotor has */

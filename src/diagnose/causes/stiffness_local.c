@@ -1,7 +1,5 @@
 /* A zone softer than its surroundings, anywhere on the axis: E and G times 1 - depth g(z), g a Gaussian of standard deviation
  * `width` or a box of length `width`. The words with _SHEAR give the shear stiffness a depth of its own. */
-#include <math.h>
-
 #include "diagnose/causes/causes.h"
 
 enum { GAUSSIAN, BOX, GAUSSIAN_SHEAR, BOX_SHEAR };

@@ -1,7 +1,5 @@
 /* A spring of the deck that acts elsewhere than stated: a bearing is as long as a tenth of the rotor or a knife edge was measured
  * from another end. A support that is farther off than an eighth of the rotor is another one: support_extra. */
-#include <math.h>
-
 #include "diagnose/causes/causes.h"
 
 static void on_spring(const struct effect *effect, int p, struct effect_spring *change)
