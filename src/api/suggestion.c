@@ -89,7 +89,7 @@ static int suggest_for_speed(struct call *call, const struct states *states, con
                        : ROTID_ERROR_MEMORY;
     if (status)
         return status;
-    model_set(model, own.x);
+    discrete_set(&model->discrete, own.x);
     const rotid_fit_result none = {.variance_from_residuals = 1};
     rotid_noise *noise = result_noise(pool, job, *fit ? *fit : &none);
     rotid_suggestion made = {.wanted_percent = o->wanted_percent > 0 ? o->wanted_percent : 2,

@@ -168,11 +168,6 @@ int lumped_next(const struct beam *beam, struct lumped *lumped)
     return 0;
 }
 
-static int is_spring(const struct beam *beam, const struct lumped *lumped)
-{
-    return lumped->effect >= beam->rotor.neffect;
-}
-
 static double place_in(const struct mesh *mesh, const struct lumped *lumped)
 {
     int e = lumped->element;
@@ -199,7 +194,7 @@ void lumped_add(const struct beam *beam, const struct lumped *lumped, const stru
 static int rate_of(const struct beam *beam, struct parameter parameter, const struct lumped *lumped, struct effect_point *d)
 {
     const struct rotor *rotor = &beam->rotor;
-    if (is_spring(beam, lumped))
+    if (lumped->effect >= rotor->neffect)
         return effects_spring_derivative(rotor, parameter, lumped->spring - 1, d);
     const struct effect *effect = &rotor->effect[lumped->effect];
     return parameter.kind == PARAMETER_EFFECT && parameter.index == lumped->effect &&

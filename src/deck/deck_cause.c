@@ -159,22 +159,14 @@ static int read_target(struct cause_card *c)
     c->effect.target = -1;
     if (is_moving(c))
         return refuse_sensor(c);
-    switch (c->kind->target) {
-    case TARGET_NONE:
-    case TARGET_MODES:
-        return 0;
-    case TARGET_GROUP:
+    const enum cause_target target = c->kind->target;
+    if (target == TARGET_GROUP)
         return (c->effect.target = deck_option_group(c->reader, c->card, "GROUP")) < 0;
-    case TARGET_INTERFACE:
-        return read_interface(c);
-    case TARGET_SENSOR:
-    case TARGET_SENSORS:
-        return read_sensors(c);
-    case TARGET_BLOCK:
-        return read_block(c);
-    default:
-        return read_named(c);
-    }
+    return target == TARGET_NONE || target == TARGET_MODES       ? 0
+           : target == TARGET_INTERFACE                          ? read_interface(c)
+           : target == TARGET_SENSOR || target == TARGET_SENSORS ? read_sensors(c)
+           : target == TARGET_BLOCK                              ? read_block(c)
+                                                                 : read_named(c);
 }
 
 /* ------------------------------------------------------------------------------------------------ the card */

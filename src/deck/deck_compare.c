@@ -41,25 +41,14 @@ static unsigned differences(const struct deck_row *row, const void *a, const voi
     for (; !deck_row_is_last(row); row++) {
         int same = 1;
         const void *p = (const char *)a + row->offset, *q = (const char *)b + row->offset;
-        switch (row->kind) {
-        case ROW_NAME:
+        if (row->kind == ROW_NAME)
             same = is_same_text(*(const char *const *)p, *(const char *const *)q);
-            break;
-        case ROW_MATERIAL:
+        else if (row->kind == ROW_MATERIAL)
             same = is_same_material(p, q);
-            break;
-        case ROW_GROUP:
-        case ROW_WORD:
-        case ROW_WHOLE:
+        else if (row->kind == ROW_GROUP || row->kind == ROW_WORD || row->kind == ROW_WHOLE)
             same = *(const int *)p == *(const int *)q;
-            break;
-        case ROW_NUMBER:
-        case ROW_POSITION:
+        else if (row->kind == ROW_NUMBER || row->kind == ROW_POSITION)
             same = deck_is_near(*(const double *)p, *(const double *)q);
-            break;
-        default:
-            break;
-        }
         bits |= same ? 0 : row->bits & ROW_MESH ? DECK_OTHER_ELEMENTS : DECK_OTHER_MODEL;
     }
     return bits;

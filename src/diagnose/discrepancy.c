@@ -1,10 +1,5 @@
 #include "diagnose/diagnose.h"
 
-static int discrepancy_of(const struct cause_kind *cause)
-{
-    return cause->discrepancy_frequency > 0 || cause->discrepancy_shape > 0;
-}
-
 static int change(struct pool *pool, ptrdiff_t n, double discrepancy, double **std)
 {
     double *changed = POOL_ARRAY(pool, double, n);
@@ -18,8 +13,8 @@ static int change(struct pool *pool, ptrdiff_t n, double discrepancy, double **s
 
 int discrepancy_add(struct pool *pool, const struct candidate *c, struct states *states)
 {
-    int status = ROTID_OK;
-    for (int s = 0; s < states->nstate && discrepancy_of(c->cause) && !status; s++) {
+    int approximate = c->cause->discrepancy_frequency > 0 || c->cause->discrepancy_shape > 0, status = ROTID_OK;
+    for (int s = 0; s < states->nstate && approximate && !status; s++) {
         struct job *job = &states->state[s].job;
         struct job_measurement *m = &job->measurement;
         if (!c->in[s])

@@ -371,11 +371,6 @@ int matrix_market_condensed_mass(FILE *stream, const struct export_model *model)
     return write_condensed(stream, model, model->condensed.m, "Condensed mass matrix [kg]");
 }
 
-static void put_row(FILE *stream, int row)
-{
-    (void)fprintf(stream, row ? "%d," : ",", row);
-}
-
 /* node, z_m, row_v, row_theta (from 1), member, sensor; of a solid node, r_m, z_m, row_u, row_v, row_w, row_theta, member, sensor
  */
 static int matrix_market_nodes(FILE *stream, const struct export_model *model)
@@ -390,7 +385,7 @@ static int matrix_market_nodes(FILE *stream, const struct export_model *model)
             (void)fprintf(stream, "%.17g", node->r);
         (void)fprintf(stream, solid ? ",%.17g," : "%.17g,", node->z);
         for (int c = 0; c < (solid ? 4 : 2); c++)
-            put_row(stream, node->row[c]);
+            (void)fprintf(stream, node->row[c] ? "%d," : ",", node->row[c]);
         remark_word(stream, node->member);
         (void)fprintf(stream, node->sensor ? ",%d\n" : ",\n", node->sensor);
     }

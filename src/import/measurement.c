@@ -28,22 +28,11 @@ static int motion_of(const struct uff_axis *axis)
 {
     static const char *const accelerations[] = {"g", "gn", "m/s2", "m/s^2", "m/s**2", "mm/s2", "mm/s^2", NULL},
                              *const velocities[] = {"m/s", "mm/s", NULL}, *const displacements[] = {"m", "mm", "um", NULL};
-    switch (axis->specific_type) {
-    case DISPLACEMENT:
-        return FRF_DISPLACEMENT;
-    case VELOCITY:
-        return FRF_VELOCITY;
-    case ACCELERATION:
-        return FRF_ACCELERATION;
-    case 0:
-    case 1:
-        return is_one_of(axis->unit, accelerations)   ? FRF_ACCELERATION
-               : is_one_of(axis->unit, velocities)    ? FRF_VELOCITY
-               : is_one_of(axis->unit, displacements) ? FRF_DISPLACEMENT
-                                                      : -1;
-    default:
-        return -1;
-    }
+    const int type = axis->specific_type, untold = type == 0 || type == 1;
+    return type == ACCELERATION || (untold && is_one_of(axis->unit, accelerations))   ? FRF_ACCELERATION
+           : type == VELOCITY || (untold && is_one_of(axis->unit, velocities))        ? FRF_VELOCITY
+           : type == DISPLACEMENT || (untold && is_one_of(axis->unit, displacements)) ? FRF_DISPLACEMENT
+                                                                                      : -1;
 }
 
 static int is_force(const struct uff_axis *axis)

@@ -50,18 +50,11 @@ const char *name_of_function(int type, int plural)
 
 const char *name_of_ordinate(int ordinate)
 {
-    switch (ordinate) {
-    case UFF_REAL_SINGLE:
-        return "real single";
-    case UFF_REAL_DOUBLE:
-        return "real double";
-    case UFF_COMPLEX_SINGLE:
-        return "complex single";
-    case UFF_COMPLEX_DOUBLE:
-        return "complex double";
-    default:
-        return "unknown";
-    }
+    return ordinate == UFF_REAL_SINGLE      ? "real single"
+           : ordinate == UFF_REAL_DOUBLE    ? "real double"
+           : ordinate == UFF_COMPLEX_SINGLE ? "complex single"
+           : ordinate == UFF_COMPLEX_DOUBLE ? "complex double"
+                                            : "unknown";
 }
 
 const char *name_of_analysis(int type)
@@ -109,28 +102,9 @@ int has_time_axis(const struct uff_function *function)
 
 const char *si_unit(int specific_type)
 {
-    switch (specific_type) {
-    case 8:
-        return "m";
-    case 9:
-    case 13:
-        return "N";
-    case 11:
-        return "m/s";
-    case 12:
-        return "m/s2";
-    case 2:
-    case 15:
-        return "Pa";
-    case 16:
-        return "kg";
-    case 17:
-        return "s";
-    case 18:
-        return "Hz";
-    default:
-        return "";
-    }
+    static const char *const units[] = {[2] = "Pa", [8] = "m",   [9] = "N",   [11] = "m/s", [12] = "m/s2",
+                                        [13] = "N", [15] = "Pa", [16] = "kg", [17] = "s",   [18] = "Hz"};
+    return specific_type >= 0 && specific_type < COUNT(units) && units[specific_type] ? units[specific_type] : "";
 }
 
 double unit_text_factor(int specific_type, const char *text)

@@ -262,17 +262,12 @@ static int iterate(struct eigen_band *e, const rotid_matrix *k, const rotid_matr
     return 0;
 }
 
-static int is_wanted(const struct eigen_band *e, int pair)
-{
-    return pair >= e->from && pair < e->to;
-}
-
 /* Pairs that are not at the tolerance, nor at the rounding with no more to expect: they are open again. */
 static int count_open(struct eigen_band *e, double rounding, double *expected)
 {
     int open = 0;
     for (int j = 0; j < e->count; j++) {
-        if (e->residual[j] <= (is_wanted(e, j) ? e->within : EIGEN_POLISH_NEAR) ||
+        if (e->residual[j] <= (j >= e->from && j < e->to ? e->within : EIGEN_POLISH_NEAR) ||
             (expected[j] <= e->within && e->residual[j] <= rounding))
             continue;
         expected[j] = INFINITY;

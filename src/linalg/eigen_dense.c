@@ -92,7 +92,7 @@ static int solve_highest(struct eigen_dense *e, const double *k, const double *m
         lambda[j] = e->values[j];
         memcpy(phi + (ptrdiff_t)j * n, e->a + (ptrdiff_t)j * n, (size_t)n * sizeof *phi);
     }
-    put_matrices(e, k, m); /* for eigen_dense_inverse */
+    put_matrices(e, k, m); /* for eigen_full_solve */
     return LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', n, e->b, n) ? ROTID_ERROR_STIFFNESS : ROTID_OK;
 }
 
@@ -136,9 +136,4 @@ int eigen_dense_solve(struct eigen_dense *e, const double *k, const double *m, d
             e->shift = -lambda[reference];
     }
     return lambda[e->count - 1] < FAR * -e->shift ? ROTID_OK : solve_highest(e, k, m, lambda, phi);
-}
-
-void eigen_dense_inverse(struct eigen_dense *e, int columns, double *y)
-{
-    (void)LAPACKE_dpotrs_work(LAPACK_COL_MAJOR, 'L', e->n, columns, e->b, e->n, y, e->n);
 }

@@ -1,4 +1,5 @@
 #include <cblas.h>
+#include <lapacke.h>
 
 #include "linalg/linalg.h"
 
@@ -249,11 +250,6 @@ void eigen_full_within(struct eigen_full *e, double residual)
     e->panels.within = e->band.within = residual;
 }
 
-void eigen_full_vouch(struct eigen_full *e)
-{
-    e->panels.vouched = 1;
-}
-
 void eigen_full_begin(struct eigen_full *e, const double *phi)
 {
     if (e->wide)
@@ -291,7 +287,8 @@ int eigen_full_solve(struct eigen_full *e, const rotid_matrix *k, const rotid_ma
     if (status)
         return status;
     matrix_multiply(m, count, phi, e->image);
-    eigen_dense_inverse(&e->solver, count, e->image);
+    /* (K - s M)^-1 with the shift of that solution */
+    (void)LAPACKE_dpotrs_work(LAPACK_COL_MAJOR, 'L', n, count, e->solver.b, n, e->image, n);
     double *value = e->k, *vector = e->m; /* not needed any more */
     if (!ritz_pairs(n, count, k, m, e->image, value, vector, e->product, e->squares, e->work)) {
         memcpy(lambda, value, (size_t)count * sizeof *lambda);

@@ -106,6 +106,9 @@ static int factor_diagonal(struct wide *w, int p, int indefinite)
     return negative;
 }
 
+/* A = L L', returning -1 where A is not positive definite; or, where it may be indefinite, A = L S L' without pivoting, returning
+ * the number of negative signs, which is that of the negative eigenvalues of A. A pivot that cancels is then replaced by a tiny
+ * negative one of its scale, which moves A by rounding. */
 static int wide_factor(struct wide *w, int indefinite)
 {
     int negative = 0;
@@ -138,19 +141,6 @@ static int wide_factor(struct wide *w, int indefinite)
         }
     }
     return negative;
-}
-
-/* A = L L'. Returns 0, or 1 where A is not positive definite. */
-static int wide_cholesky(struct wide *w)
-{
-    return wide_factor(w, 0) != 0;
-}
-
-/* A = L S L' without pivoting. Returns the number of negative signs, which is that of the negative eigenvalues of A. A pivot that
- * cancels is replaced by a tiny negative one of its scale, which moves A by rounding. */
-static int wide_indefinite(struct wide *w)
-{
-    return wide_factor(w, 1);
 }
 
 /* B [n * columns], leading dimension ld, is overwritten by A^-1 B. */
@@ -466,7 +456,7 @@ static int factor_inner(struct factor *f)
 {
     if (!f->is_wide)
         return f->kind == FACTOR_CHOLESKY ? band_cholesky(f->nr, f->kd, f->band) : band_lu(f->nr, f->kd, f->band, f->band_pivot);
-    return f->kind == FACTOR_CHOLESKY ? wide_cholesky(&f->wide) : wide_indefinite(&f->wide) < 0;
+    return wide_factor(&f->wide, f->kind != FACTOR_CHOLESKY) < 0;
 }
 
 static int compute(struct factor *f, const struct factor_source *source)
@@ -639,7 +629,7 @@ static void ldl_solve(const struct factor *f, double *b)
 static int negative_count(struct factor *f, const struct factor_source *source)
 {
     factor_gather(f, source);
-    int negative = f->is_wide ? wide_indefinite(&f->wide) : band_ldl(f);
+    int negative = f->is_wide ? wide_factor(&f->wide, 1) : band_ldl(f);
     if (!f->nf || negative < 0)
         return negative;
     if (f->is_wide)

@@ -310,9 +310,6 @@ int eigen_dense_new(struct pool *pool, int n, int count, struct eigen_dense *e);
  */
 int eigen_dense_solve(struct eigen_dense *e, const double *k, const double *m, double *lambda, double *phi);
 
-/* y [n * columns] := (K - s M)^-1 y with the matrices and the shift of the last eigen_dense_solve */
-void eigen_dense_inverse(struct eigen_dense *e, int columns, double *y);
-
 /* ---- banded: the full chain, in O(n) */
 
 struct eigen_band {
@@ -378,7 +375,6 @@ void eigen_full_want(struct eigen_full *e, int from, int to);
 /* Vectors off by `residual` at most, and eigenvalues by its square, in place of as good as their arithmetic; M is positive
  * definite for a reason that the caller knows: it is not factored to see that. Where that makes a difference. */
 void eigen_full_within(struct eigen_full *e, double residual);
-void eigen_full_vouch(struct eigen_full *e);
 
 /* The next solution begins with phi [n * count], vectors near the lowest pairs, in any scale; the dense solver needs none. */
 void eigen_full_begin(struct eigen_full *e, const double *phi);

@@ -137,7 +137,7 @@ int model_in_basis(struct pool *pool, struct rotor_model *model, const double *x
                    struct basis_model *out)
 {
     const rotid_model *of = &model->equations;
-    model_set(model, x);
+    discrete_set(&model->discrete, x);
     int status = solid_basis_new(pool, &model->discrete.solid, count, v, &out->basis);
     double *sensor = POOL_ARRAY(pool, double, (size_t)count *(size_t)of->nmaster);
     if (status || !sensor)
@@ -170,11 +170,6 @@ int model_lateral_dof(const struct rotor_model *model, double z)
         if (fabs(model->z[i] - z) < fabs(model->z[nearest] - z))
             nearest = i;
     return discrete_place_dof(&model->discrete, nearest);
-}
-
-void model_set(struct rotor_model *model, const double *x)
-{
-    discrete_set(&model->discrete, x);
 }
 
 void model_whole(const struct rotor_model *model, double *whole)

@@ -218,13 +218,10 @@ double model_master_z(const struct rotor_model *model, int i);
 /* The lateral degree of freedom nearest to z. */
 int model_lateral_dof(const struct rotor_model *model, double z);
 
-/* Sets the parameters to x without solving anything: for mass and deflections. */
-void model_set(struct rotor_model *model, const double *x);
-
 /* The motions of the whole, as in rotid_measured: whole [2 n]. */
 void model_whole(const struct rotor_model *model, double *whole);
 
-/* At the values of the last evaluation or model_set. */
+/* At the values of the last evaluation or discrete_set. */
 void model_mass_properties(const struct rotor_model *model, struct mass_properties *properties);
 
 /* The same of a rotor that nobody wants the modes of, at x [nparameter]. Statuses of discrete_build. */

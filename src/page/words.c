@@ -28,11 +28,6 @@ const char *plain_file(const char *path)
     return slash && slash[1] ? slash + 1 : path;
 }
 
-static int in_word(char c)
-{
-    return isalnum((unsigned char)c) || c == '_' || c == '.' || c == '-' || c == '/';
-}
-
 /* Bytes of the folders of an absolute path at `text`, 0 where none stands there. */
 static size_t folders_at(const char *text)
 {
@@ -63,7 +58,7 @@ static size_t cause_at(struct pool *pool, const char *text, const char **words)
 static const char *next_change(struct pool *pool, const char *text, char before, size_t *takes, const char **words)
 {
     for (; *text; before = *text++) {
-        if (in_word(before))
+        if (isalnum((unsigned char)before) || (before && strchr("_.-/", before)))
             continue;
         *words = "";
         *takes = *text == '/' ? (before == ':' ? 0 : folders_at(text)) /* https: */

@@ -2,20 +2,12 @@
 
 size_t record_element_size(const struct record_field *field)
 {
-    switch (field->kind) {
-    case FIELD_NUMBER:
-        return sizeof(double);
-    case FIELD_TEXT:
-        return sizeof(const char *);
-    case FIELD_RECORD:
-        return field->record->size;
-    case FIELD_MAP:
-        return sizeof(rotid_component);
-    case FIELD_CHARS:
-        return field->columns;
-    default:
-        return sizeof(int);
-    }
+    return field->kind == FIELD_NUMBER   ? sizeof(double)
+           : field->kind == FIELD_TEXT   ? sizeof(const char *)
+           : field->kind == FIELD_RECORD ? field->record->size
+           : field->kind == FIELD_MAP    ? sizeof(rotid_component)
+           : field->kind == FIELD_CHARS  ? field->columns
+                                         : sizeof(int);
 }
 
 /* The pointer at `place` leads to a copy of its own of what it leads to. Number of the elements there, 0 where there are none. */

@@ -136,21 +136,14 @@ void unit_column(struct table *table, double value, double half, const char *uni
 /* value: in the unit that is shown */
 static const char *number_text(const struct table *table, unsigned show, double value)
 {
+    const unsigned format = show & SHOW_FORMAT;
     int digits = (int)(show >> SHOW_DIGITS_FROM) & SHOW_DIGITS_MOST;
-    switch (show & SHOW_FORMAT) {
-    case SHOW_SIGNED(0):
-        return human_column(table->pool, value, digits, "+");
-    case SHOW_DIGITS(0):
-        return human_digits(table->pool, value, digits);
-    case SHOW_TRIMMED(0):
-        return human_trimmed(table->pool, value, digits);
-    case SHOW_CHANCE(0):
-        return value < 0.001 ? "<0.001" : human_digits(table->pool, value, digits);
-    case SHOW_ROW:
-        return human_fixed(table->pool, value, table->row_decimals);
-    default:
-        return human_column(table->pool, value, digits, "");
-    }
+    if (format == SHOW_CHANCE(0) && value < 0.001)
+        return "<0.001";
+    return format == SHOW_DIGITS(0) || format == SHOW_CHANCE(0) ? human_digits(table->pool, value, digits)
+           : format == SHOW_TRIMMED(0)                          ? human_trimmed(table->pool, value, digits)
+           : format == SHOW_ROW                                 ? human_fixed(table->pool, value, table->row_decimals)
+                                : human_column(table->pool, value, digits, format == SHOW_SIGNED(0) ? "+" : "");
 }
 
 static void put_number(struct table *table, const struct table_column *column, double value)

@@ -51,18 +51,11 @@ static const char *kind_of(const cJSON *json)
 
 static int is_kind(const cJSON *json, enum place_kind kind)
 {
-    switch (kind) {
-    case PLACE_NUMBER:
-        return cJSON_IsNumber(json) && isfinite(json->valuedouble);
-    case PLACE_TEXT:
-        return cJSON_IsString(json);
-    case PLACE_FLAG:
-        return cJSON_IsBool(json);
-    case PLACE_LIST:
-        return cJSON_IsArray(json);
-    default:
-        return cJSON_IsObject(json);
-    }
+    return kind == PLACE_NUMBER ? cJSON_IsNumber(json) && isfinite(json->valuedouble)
+           : kind == PLACE_TEXT ? cJSON_IsString(json)
+           : kind == PLACE_FLAG ? cJSON_IsBool(json)
+           : kind == PLACE_LIST ? cJSON_IsArray(json)
+                                : cJSON_IsObject(json);
 }
 
 /* Whether the value is of the kind. If it is of another one that is told; null is let pass. */
@@ -221,20 +214,11 @@ static int read_word(const struct json_place *at, const char *const *word)
 
 static enum place_kind kind_of_field(const struct record_field *field)
 {
-    switch (field->kind) {
-    case FIELD_NUMBER:
-    case FIELD_INTEGER:
-        return PLACE_NUMBER;
-    case FIELD_FLAG:
-        return PLACE_FLAG;
-    case FIELD_TEXT:
-    case FIELD_WORD:
-        return PLACE_TEXT;
-    case FIELD_WORDS:
-        return PLACE_LIST;
-    default:
-        return PLACE_OBJECT;
-    }
+    return field->kind == FIELD_NUMBER || field->kind == FIELD_INTEGER ? PLACE_NUMBER
+           : field->kind == FIELD_FLAG                                 ? PLACE_FLAG
+           : field->kind == FIELD_TEXT || field->kind == FIELD_WORD    ? PLACE_TEXT
+           : field->kind == FIELD_WORDS                                ? PLACE_LIST
+                                                                       : PLACE_OBJECT;
 }
 
 /* What stands for a value that is not known. A text that has to be there is "" then, so that nobody meets NULL. */
@@ -267,14 +251,12 @@ static void read_counts(const struct json_place *map, const struct record_field 
             read_integer(&at, field, &to[i]);
 }
 
-static void read_record(const struct json_place *at, const struct record *record, const void *above, void *to);
-
 /* at->json is of the kind, or NULL or null where there is none. above: the struct that the value is of. */
 static void read_value(const struct json_place *at, const struct record_field *field, const void *above, void *to)
 {
     int is_there = at->json && !cJSON_IsNull(at->json);
     if (field->kind == FIELD_RECORD) {
-        read_record(at, field->record, above, to);
+        record_read(at, field->record, above, to);
         return;
     }
     set_unknown(field, to);
@@ -461,7 +443,7 @@ static void read_one(const struct json_place *above, const struct record_field *
         void *room = is_there ? room_for(above, 1, field->record->size) : NULL;
         *(void **)to = room;
         if (room)
-            read_record(&at, field->record, record, room);
+            record_read(&at, field->record, record, room);
         return;
     }
     read_value(&at, field, record, to);
@@ -476,7 +458,7 @@ static int stands_here(const struct json_place *at, const struct record *record)
     return field->kind == FIELD_INLINE ? stands_here(at, field->record) : place_has(at, field->key);
 }
 
-static void read_record(const struct json_place *at, const struct record *record, const void *above, void *to)
+void record_read(const struct json_place *at, const struct record *record, const void *above, void *to)
 {
     for (const struct record_field *field = record->field; field->key; field++) {
         void *inside = member(to, field->offset);
@@ -490,7 +472,7 @@ static void read_record(const struct json_place *at, const struct record *record
                 inside = *pointer = *pointer ? *pointer : room_for(at, 1, field->record->size);
             }
             if (inside)
-                read_record(at, field->record, to, inside);
+                record_read(at, field->record, to, inside);
         } else if (field->kind == FIELD_MAP && field->shape == SHAPE_ONE) {
             read_map(at, field, to);
         } else if (field->kind == FIELD_MAP) {
@@ -505,9 +487,4 @@ static void read_record(const struct json_place *at, const struct record *record
             read_one(at, field, to);
         }
     }
-}
-
-void record_read(const struct json_place *at, const struct record *record, void *to)
-{
-    read_record(at, record, NULL, to);
 }

@@ -237,9 +237,9 @@ struct json_place place_first(const struct json_place *list, enum place_kind kin
  * one line. To be freed; NULL where memory is out. */
 char *record_text(const struct record *record, const void *from, int lines);
 
-/* Reads the object `at` into `to`, a struct of zeros; lists and texts go to the pool of the reader. What is wrong is told with
- * its place, reader->status tells at the end. */
-void record_read(const struct json_place *at, const struct record *record, void *to);
+/* Reads the object `at` into `to`, a struct of zeros; lists and texts go to the pool of the reader. above: the struct that
+ * `to` is part of, for FIELD_COUNT; NULL of the root. What is wrong is told with its place, reader->status tells at the end. */
+void record_read(const struct json_place *at, const struct record *record, const void *above, void *to);
 
 extern const struct record provenance_record; /* struct result_head up to command */
 extern const struct record deck_record;       /* the rest, where the command reads a deck */

@@ -160,7 +160,7 @@ static void read_root(const struct json_place *root, struct result *result)
         place_wrong(root, "is the file of results of a study and holds no run yet, expected the line of a run at least");
         return;
     }
-    record_read(root, &kind->record, result);
+    record_read(root, &kind->record, NULL, result);
     if (root->reader->status)
         return;
     for (size_t i = 0; i < sizeof newer / sizeof *newer; i++)

@@ -128,31 +128,19 @@ double *parameter_starts(struct pool *pool, int n, const rotid_parameter *bounds
 
 double *parameter_value(const struct rotor *rotor, struct parameter parameter)
 {
+    const enum parameter_kind kind = parameter.kind;
     int i = parameter.index;
-    switch (parameter.kind) {
-    case PARAMETER_E:
-        return &rotor->group[i].material.e;
-    case PARAMETER_G:
-        return &rotor->group[i].material.g;
-    case PARAMETER_NU:
-        return &rotor->group[i].material.nu;
-    case PARAMETER_RHO:
-        return &rotor->group[i].material.rho;
-    case PARAMETER_TIEROD_E:
-        return &rotor->tierod[i].material.e;
-    case PARAMETER_TENSION:
-        return &rotor->tierod[i].tension;
-    case PARAMETER_SPRING_K:
-        return &rotor->spring[i].lateral;
-    case PARAMETER_SPRING_K_ROT:
-        return &rotor->spring[i].rotational;
-    case PARAMETER_DISK_MASS:
-        return &rotor->disk[i].mass;
-    case PARAMETER_EFFECT:
-        return &rotor->effect[i].value[parameter.component];
-    default:
-        return &rotor->disk[i].diametral;
-    }
+    return kind == PARAMETER_E              ? &rotor->group[i].material.e
+           : kind == PARAMETER_G            ? &rotor->group[i].material.g
+           : kind == PARAMETER_NU           ? &rotor->group[i].material.nu
+           : kind == PARAMETER_RHO          ? &rotor->group[i].material.rho
+           : kind == PARAMETER_TIEROD_E     ? &rotor->tierod[i].material.e
+           : kind == PARAMETER_TENSION      ? &rotor->tierod[i].tension
+           : kind == PARAMETER_SPRING_K     ? &rotor->spring[i].lateral
+           : kind == PARAMETER_SPRING_K_ROT ? &rotor->spring[i].rotational
+           : kind == PARAMETER_DISK_MASS    ? &rotor->disk[i].mass
+           : kind == PARAMETER_EFFECT       ? &rotor->effect[i].value[parameter.component]
+                                            : &rotor->disk[i].diametral;
 }
 
 const char *parameter_next_name(const char *names, char name[PARAMETER_NAME])

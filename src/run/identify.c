@@ -260,7 +260,8 @@ static int fit_states(struct pool *pool, const struct states *states, const roti
             *fit = NULL;
             return ROTID_ERROR_MEMORY;
         }
-        model_set(&model[s], x); /* the model stands at the last point that was evaluated; the mass wants the best one */
+        discrete_set(&model[s].discrete,
+                     x); /* the model stands at the last point that was evaluated; the mass wants the best one */
         model_mass_properties(&model[s], paired[s].mass);
     }
     return status;

@@ -66,7 +66,7 @@ static int full_model(struct pool *pool, struct pool *scratch, const struct task
     if (!status) {
         eigen_full_within(&prediction->full, task->within);
         if (mass_is_positive(task))
-            eigen_full_vouch(&prediction->full);
+            prediction->full.panels.vouched = 1;
         status = prediction_compute(prediction, task->x);
     }
     if (!status && !task->rotor->neffect) /* before candidates are tried, one after the other */
@@ -153,12 +153,6 @@ static int solve(struct pool *pool, const struct task *task, int refine, const s
     return status;
 }
 
-/* Nothing to condense onto, with one sensor, say, and nothing to report */
-static int is_impossible(int status)
-{
-    return status == ROTID_ERROR_SLAVE || status == ROTID_ERROR_MASS || status == ROTID_ERROR_STIFFNESS;
-}
-
 /* Guyan's mass for the NCO */
 static int condensed_mass(struct pool *pool, struct pool *scratch, struct prediction *p, const double *x, struct spectrum *s)
 {
@@ -193,7 +187,8 @@ static int condense(struct pool *pool, const struct solution *full, const double
     for (int j = 0; j < s->count && !status && parts & SPECTRUM_REDUCED; j++)
         s->reduced_hz[j] = s->nrigid + j < count ? prediction_hz(&p, s->nrigid + j) * s->full_hz[j] / full_hz[j] : NAN;
     pool_close(&scratch);
-    return is_impossible(status) ? ROTID_OK : status;
+    /* nothing to condense onto, with one sensor, say, and nothing to report */
+    return status == ROTID_ERROR_SLAVE || status == ROTID_ERROR_MASS || status == ROTID_ERROR_STIFFNESS ? ROTID_OK : status;
 }
 
 int spectrum_compute(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,

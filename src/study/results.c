@@ -197,7 +197,7 @@ static const char *parse(struct pool *pool, const char *text, size_t length, con
     const struct json_place place = {.reader = &reader, .json = json};
     message_open(&messages, pool);
     if (cJSON_IsObject(json))
-        record_read(&place, record, into);
+        record_read(&place, record, NULL, into);
     else if (status != ROTID_ERROR_MEMORY)
         place_wrong(&place, "it is no JSON, expected an object");
     cJSON_Delete(json);

@@ -46,22 +46,17 @@ const char *cause_target_name(struct pool *pool, const struct rotor *rotor, cons
 {
     if (target < 0)
         return "";
-    switch (cause->target) {
-    case TARGET_GROUP:
-        return rotor->group[target].name;
-    case TARGET_INTERFACE:
+    if (cause->target == TARGET_INTERFACE)
         return pool_format(pool, "%s|%s", rotor->group[target].name, rotor->group[target + 1].name);
-    case TARGET_SPRING:
-        return rotor->spring[target].name ? rotor->spring[target].name
-                                          : pool_format(pool, "spring at %.4g m", rotor->spring[target].position);
-    case TARGET_DISK:
-        return rotor->disk[target].name ? rotor->disk[target].name
-                                        : pool_format(pool, "disk at %.4g m", rotor->disk[target].position);
-    case TARGET_TIEROD:
-        return rotor->tierod[target].name;
-    default:
-        return "";
-    }
+    if (cause->target == TARGET_SPRING && !rotor->spring[target].name)
+        return pool_format(pool, "spring at %.4g m", rotor->spring[target].position);
+    if (cause->target == TARGET_DISK && !rotor->disk[target].name)
+        return pool_format(pool, "disk at %.4g m", rotor->disk[target].position);
+    return cause->target == TARGET_GROUP    ? rotor->group[target].name
+           : cause->target == TARGET_SPRING ? rotor->spring[target].name
+           : cause->target == TARGET_DISK   ? rotor->disk[target].name
+           : cause->target == TARGET_TIEROD ? rotor->tierod[target].name
+                                            : "";
 }
 
 const struct effect_parameter_name *correction_parameter(const struct cause_kind *cause, int p)
