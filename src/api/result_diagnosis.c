@@ -2,6 +2,25 @@
 
 #define SHARED 0.99 /* probability of the explanations that are listed */
 
+/* Name and unit of parameter p of a candidate, that of the card for a fault of the measurement; NULL behind the last. */
+static const struct effect_parameter_name *candidate_parameter(const struct candidate *candidate, int p)
+{
+    const struct effect_kind *kind = candidate->effect.kind;
+    if (p >= candidate->nparameter || p >= EFFECT_MOST_PARAMETERS)
+        return NULL;
+    if (kind)
+        return p < kind->nparameter ? &kind->parameter[p] : NULL;
+    return correction_parameter(candidate->cause, p);
+}
+
+/* The word for its shape or mount, NULL where its cause has none. */
+static const char *candidate_variant(const struct candidate *candidate)
+{
+    const struct cause_kind *cause = candidate->cause;
+    int variant = candidate->effect.variant, words = (int)(sizeof cause->variant / sizeof *cause->variant);
+    return cause->variant_option && variant >= 0 && variant < words ? cause->variant[variant] : NULL;
+}
+
 static rotid_cause cause_of(struct pool *pool, const struct candidate *c)
 {
     const struct effect_parameter_name *parameter;
@@ -108,6 +127,15 @@ static rotid_changed_parameter changed_parameter(const rotid_parameter *name, co
         .after = is ? extended->x[after] : (double)NAN,
         .before_ci95 = {was ? base->ci_lower[before] : (double)NAN, was ? base->ci_upper[before] : (double)NAN},
         .after_ci95 = {is ? extended->ci_lower[after] : (double)NAN, is ? extended->ci_upper[after] : (double)NAN}};
+}
+
+/* Index in the fit (may be NULL) of the unknown [fit->n] of that name, -1 where there is none. */
+static int fitted_parameter(const rotid_parameter *unknown, const rotid_fit_result *fit, const char *name)
+{
+    for (int p = 0; fit && p < fit->n; p++)
+        if (!strcmp(unknown[p].name, name))
+            return p;
+    return -1;
 }
 
 /* Parameters of the base model, then those that the extended one has besides. A diagnosis that was broken off in its first fit

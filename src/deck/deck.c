@@ -380,6 +380,22 @@ static void check_elements(struct deck_reader *reader)
     }
 }
 
+/* By their positions, in the order of the deck where two have one. */
+static void deck_sort_sensors(struct deck_reader *reader)
+{
+    struct sensor *sensor = reader->job->rotor.sensor;
+    struct place *place = reader->place[SENSOR_PLACES];
+    for (int i = 1; i < reader->job->rotor.nsensor; i++)
+        for (int at = i; at > 0 && sensor[at - 1].position > sensor[at].position; at--) {
+            const struct sensor other = sensor[at];
+            const struct place there = place[at];
+            sensor[at] = sensor[at - 1];
+            place[at] = place[at - 1];
+            sensor[at - 1] = other;
+            place[at - 1] = there;
+        }
+}
+
 void deck_read_cards(struct deck_reader *reader)
 {
     struct job *job = reader->job;
@@ -434,6 +450,36 @@ void deck_read_cards(struct deck_reader *reader)
         count_modes(reader);
     check_magnitudes(reader);
     note_assumptions(reader);
+}
+
+/* Replaces or adds the option on every card of that name; a card of which there can only be one is added if it is missing. */
+static int deck_text_override(struct pool *pool, const struct override *override, struct message_list *messages,
+                              struct deck_text *text)
+{
+    static const char *const single[] = {"FIT", "NOISE", "SLING", "MEASURED", "FRF"};
+    struct place place = {override->text, 1, 1};
+    struct card_option option = {override->option, override->value, place, place, 1, place};
+    int found = 0;
+    for (int i = 0; i < text->ncard; i++) {
+        struct card *card = &text->card[i];
+        if (!same_text(card->name, override->card))
+            continue;
+        struct card_option *present = (struct card_option *)card_option(card, override->option);
+        found = 1;
+        if (present)
+            *present = option;
+        else if (deck_text_add_option(pool, card, option))
+            return ROTID_ERROR_MEMORY;
+    }
+    for (size_t s = 0; s < sizeof single / sizeof *single && !found; s++)
+        if (same_text(single[s], override->card)) {
+            struct card *card = deck_text_add_card(pool, text, single[s], place);
+            return card && !deck_text_add_option(pool, card, option) ? ROTID_OK : ROTID_ERROR_MEMORY;
+        }
+    if (!found)
+        return message_refuse(messages, ROTID_ERROR_SYNTAX, place.file, 1, 1,
+                              "the deck has no card *%s, expected one that it has", override->card);
+    return ROTID_OK;
 }
 
 int deck_read_with(struct pool *pool, const char *path, const struct deck_memory *memory, int noverride,

@@ -148,9 +148,6 @@ int deck_text_add_option(struct pool *pool, struct card *card, struct card_optio
  * ROTID_ERROR_MEMORY. */
 int override_parse(struct pool *pool, const char *text, struct override *override);
 
-/* Replaces or adds the option on every card of that name; a card of which there can only be one is added if it is missing. */
-int deck_text_override(struct pool *pool, const struct override *override, struct message_list *messages, struct deck_text *text);
-
 /* The option of that name, or NULL. */
 const struct card_option *card_option(const struct card *card, const char *name);
 
@@ -370,9 +367,6 @@ int deck_cause_explains(struct deck_reader *reader, const char *parameter, struc
 /* What a reading may differ from its mode, relative: no accelerometer loads a rotor more, and another mode is not far. */
 #define POINT_FREQUENCY_RANGE 0.05
 
-/* By their positions, in the order of the deck where two have one. */
-void deck_sort_sensors(struct deck_reader *reader);
-
 /* The frequencies of modes that have readings at single sensors, and the noise of all: what a mode, a component or a reading has
  * of its own, with the floors of *NOISE in quadrature; *NOISE itself where there is none. */
 void deck_complete_noise(struct deck_reader *reader);
@@ -439,9 +433,6 @@ void deck_put_corrections(struct deck_writer *w, int first);
 void deck_put_cause(struct deck_writer *w, const struct effect *effect);
 void deck_put_unknown(struct deck_writer *w, const rotid_parameter *bounds, const char *name);
 void deck_put_holdout(struct deck_writer *w);
-
-/* A line of text that a deck takes for text. */
-void deck_put_text(struct deck_writer *w, const char *text);
 
 /* The data as they were read, before the faults in them were taken out. */
 struct job_raw deck_data_as_read(const struct job *job);

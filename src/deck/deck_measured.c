@@ -51,21 +51,6 @@ int deck_check_sensor(struct deck_reader *reader, const struct data_line *line, 
     return 0;
 }
 
-void deck_sort_sensors(struct deck_reader *reader)
-{
-    struct sensor *sensor = reader->job->rotor.sensor;
-    struct place *place = reader->place[SENSOR_PLACES];
-    for (int i = 1; i < reader->job->rotor.nsensor; i++)
-        for (int at = i; at > 0 && sensor[at - 1].position > sensor[at].position; at--) {
-            const struct sensor other = sensor[at];
-            const struct place there = place[at];
-            sensor[at] = sensor[at - 1];
-            place[at] = place[at - 1];
-            sensor[at - 1] = other;
-            place[at - 1] = there;
-        }
-}
-
 /* Room for modes without shapes. 0, or 1 where memory is out. */
 static int new_modes(struct deck_reader *reader, int count)
 {

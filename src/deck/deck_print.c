@@ -82,28 +82,6 @@ void deck_put_option_number(struct deck_writer *w, const char *name, double valu
     deck_put_option(w, name, deck_number_text(in_unit(w, value, what), text));
 }
 
-void deck_put_text(struct deck_writer *w, const char *text)
-{
-    char line[DECK_LINE_LENGTH + 1];
-    size_t length = 0, taken;
-    text += strspn(text, "* \t\r\n");
-    for (; *text; text += taken) {
-        size_t bytes = text_visible(text);
-        taken = bytes ? bytes : text_utf8(text) ? text_utf8(text) : 1;
-        const char *shown = (*text == '*' && text[1] == '*') || (unsigned char)*text < ' ' ? " "
-                            : bytes                                                        ? text
-                                                                                           : TEXT_REPLACEMENT;
-        size_t count = shown == text ? bytes : strlen(shown);
-        if (length + count > DECK_LINE_LENGTH)
-            break;
-        memcpy(line + length, shown, count);
-        length += count;
-    }
-    line[length] = 0;
-    if (length)
-        deck_put(w, "%s\n", line);
-}
-
 /* ------------------------------------------------------------------------------------------------ by rows */
 
 /* Values at the end that may lack are left out where they say nothing: zero or NaN, or what they follow. */

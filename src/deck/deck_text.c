@@ -411,31 +411,3 @@ int override_parse(struct pool *pool, const char *text, struct override *overrid
                                   pool_format(pool, "--set %s", text), text};
     return override->card && override->option && override->text ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
-
-int deck_text_override(struct pool *pool, const struct override *override, struct message_list *messages, struct deck_text *text)
-{
-    static const char *const single[] = {"FIT", "NOISE", "SLING", "MEASURED", "FRF"};
-    struct place place = {override->text, 1, 1};
-    struct card_option option = {override->option, override->value, place, place, 1, place};
-    int found = 0;
-    for (int i = 0; i < text->ncard; i++) {
-        struct card *card = &text->card[i];
-        if (!same_text(card->name, override->card))
-            continue;
-        struct card_option *present = (struct card_option *)card_option(card, override->option);
-        found = 1;
-        if (present)
-            *present = option;
-        else if (deck_text_add_option(pool, card, option))
-            return ROTID_ERROR_MEMORY;
-    }
-    for (size_t s = 0; s < sizeof single / sizeof *single && !found; s++)
-        if (same_text(single[s], override->card)) {
-            struct card *card = deck_text_add_card(pool, text, single[s], place);
-            return card && !deck_text_add_option(pool, card, option) ? ROTID_OK : ROTID_ERROR_MEMORY;
-        }
-    if (!found)
-        return message_refuse(messages, ROTID_ERROR_SYNTAX, place.file, 1, 1,
-                              "the deck has no card *%s, expected one that it has", override->card);
-    return ROTID_OK;
-}

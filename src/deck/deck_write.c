@@ -567,6 +567,29 @@ static void put_new(struct writing *w, int s, int common, struct deck_writer *ou
     }
 }
 
+/* A line of text that a deck takes for text. */
+static void deck_put_text(struct deck_writer *w, const char *text)
+{
+    char line[DECK_LINE_LENGTH + 1];
+    size_t length = 0, taken;
+    text += strspn(text, "* \t\r\n");
+    for (; *text; text += taken) {
+        size_t bytes = text_visible(text);
+        taken = bytes ? bytes : text_utf8(text) ? text_utf8(text) : 1;
+        const char *shown = (*text == '*' && text[1] == '*') || (unsigned char)*text < ' ' ? " "
+                            : bytes                                                        ? text
+                                                                                           : TEXT_REPLACEMENT;
+        size_t count = shown == text ? bytes : strlen(shown);
+        if (length + count > DECK_LINE_LENGTH)
+            break;
+        memcpy(line + length, shown, count);
+        length += count;
+    }
+    line[length] = 0;
+    if (length)
+        deck_put(w, "%s\n", line);
+}
+
 static void add_heading(struct writing *w)
 {
     struct deck_writer lines = {.pool = w->pool};

@@ -649,9 +649,6 @@ struct candidate candidate_listed(const struct scan *scan, int index);
 
 #define BLOCK_LEVEL 0.01
 
-/* 1 where noise reaches chi2 of the frequencies and the whole chi2 of the fit, each (BLOCK_LEVEL). What the scan still would find
- * does not count. data: of the fit, from which faults may have taken rows of the scan. */
-int fit_explains(const struct scan *scan, const struct evidence_data *data, const rotid_fit_result *fit);
 /* The candidates of the search, the most probable first. ROTID_OK or ROTID_ERROR_MEMORY. */
 int evidence_collect(struct engine *engine, const struct scan *scan, const struct posterior *posterior,
                      struct diagnosis_round *round);
@@ -678,20 +675,6 @@ struct far_start {
  * repeated: *changed. Statuses of memory and cancellation only. */
 int far_starts_search(struct engine *engine, const struct round_result *result, const struct posterior *posterior, int *changed);
 
-/* Gives the scan's candidate the start that was found. */
-void far_starts_mark(const struct engine *engine, struct scan *scan);
-
-/* ------------------------------------------------------------------------------------------------------------ shape data */
-
-struct shape_data { /* deflections of a model along the axis */
-    int naxis;
-    const double *axis_z;     /* [naxis] nodes of the model, increasing [m] */
-    const double *axis_shape; /* [naxis * nmode] deflection of the model's modes there */
-};
-
-/* Mode k of the model at z [m], from the first node to the last, cubic between the nodes (Lagrange, on the four around z). */
-double shape_data_model(const struct shape_data *data, int k, double z);
-
 /* -------------------------------------------------------------------------------------------------------------- finalise */
 
 /* The final model, the gain, the verdict in words. */
@@ -716,19 +699,6 @@ int hidden_shifts(struct engine *engine, const struct scan *scan);
  * scan_run. */
 int hidden_of_fit(struct pool *pool, const struct states *states, const struct identification *found, const int *number,
                   const rotid_fit_result *fit, int *n, rotid_hidden **list);
-
-/* ----------------------------------------------------------------------------------------------------------------- items */
-
-/* What all who report a diagnosis look up alike. */
-
-/* Name and unit of parameter p of a candidate, that of the card for a fault of the measurement; NULL behind the last. */
-const struct effect_parameter_name *candidate_parameter(const struct candidate *candidate, int p);
-
-/* The word for its shape or mount, NULL where its cause has none. */
-const char *candidate_variant(const struct candidate *candidate);
-
-/* Index in the fit (may be NULL) of the unknown [fit->n] of that name, -1 where there is none. */
-int fitted_parameter(const rotid_parameter *unknown, const rotid_fit_result *fit, const char *name);
 
 /* ------------------------------------------------------------------------------------------------------------- leave out */
 

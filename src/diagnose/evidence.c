@@ -71,15 +71,6 @@ static double frequency_chi2(const struct scan *scan, const rotid_fit_result *fi
     return sum;
 }
 
-int fit_explains(const struct scan *scan, const struct evidence_data *data, const rotid_fit_result *fit)
-{
-    int dof = scan->dof - (fit->n - scan->nfree) - (scan->nrow - fit->nresidual);
-    double lines = 0;
-    for (int i = 0; i < data->nrow && data->nrow == fit->nresidual; i++)
-        lines += data->kind[i] == EVIDENCE_FREQUENCY ? fit->r[i] * fit->r[i] : 0;
-    return dof > 0 && chi_square_tail(lines, data->nline) > BLOCK_LEVEL && chi_square_tail(fit->chi2, dof) > BLOCK_LEVEL;
-}
-
 /* Candidate `index` of the scan as it was listed. */
 struct candidate candidate_listed(const struct scan *scan, int index)
 {

@@ -222,13 +222,3 @@ int far_starts_search(struct engine *engine, const struct round_result *result, 
         pool_absorb(engine->pool, &trials.pool[i]);
     return status ? status : fit_nearest(engine, &trials, rate, changed);
 }
-
-void far_starts_mark(const struct engine *engine, struct scan *scan)
-{
-    for (int i = 0; i < scan->ncandidate && engine->far; i++) {
-        const struct scan_candidate *c = &scan->candidate[i];
-        if (c->cause == engine->far->cause && c->effect.target == engine->far->effect.target &&
-            c->effect.variant == engine->far->effect.variant && !c->suspect)
-            scan->candidate[i].far = &engine->far->effect;
-    }
-}

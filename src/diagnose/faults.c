@@ -33,6 +33,12 @@ struct channels {
     double *u, *slope;                 /* [nrow] u, du/dz */
 };
 
+struct shape_data { /* deflections of a model along the axis */
+    int naxis;
+    const double *axis_z;     /* [naxis] nodes of the model, increasing [m] */
+    const double *axis_shape; /* [naxis * nmode] deflection of the model's modes there */
+};
+
 /* Shapes of the fitted model on the nodes of the axis, each times its best scale to the measured one. */
 static int axis_shapes(struct pool *pool, const struct columns *columns, struct shape_data *data)
 {
@@ -49,9 +55,32 @@ static int axis_shapes(struct pool *pool, const struct columns *columns, struct 
     return ROTID_OK;
 }
 
+/* Mode m of the model at z [m], which a place beyond its nodes is taken to the end of; cubic between the nodes (Lagrange, on the
+ * four around z). */
 static double deflection(const struct shape_data *data, int m, double z)
 {
-    return shape_data_model(data, m, fmin(fmax(z, data->axis_z[0]), data->axis_z[data->naxis - 1]));
+    const double *x = data->axis_z, *y = data->axis_shape + (ptrdiff_t)m * data->naxis;
+    int low = 0, high = data->naxis - 1, points = data->naxis < 4 ? data->naxis : 4;
+    double sum = 0;
+    z = fmin(fmax(z, x[0]), x[high]);
+    while (high - low > 1) {
+        int mid = (low + high) / 2;
+        if (x[mid] <= z)
+            low = mid;
+        else
+            high = mid;
+    }
+    int first = low - 1 > 0 ? low - 1 : 0;
+    if (first + points > data->naxis)
+        first = data->naxis - points;
+    for (int i = first; i < first + points; i++) {
+        double product = y[i];
+        for (int j = first; j < first + points; j++)
+            if (j != i)
+                product *= (z - x[j]) / (x[i] - x[j]);
+        sum += product;
+    }
+    return sum;
 }
 
 /* number, holdout: of the modes of all states. *out has no sensors where the shapes of the state are not fitted. */

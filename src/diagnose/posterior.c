@@ -230,6 +230,17 @@ int posterior_score(struct engine *engine, struct posterior *p, const struct sca
     return status;
 }
 
+/* 1 where noise reaches chi2 of the frequencies and the whole chi2 of the fit, each (BLOCK_LEVEL). What the scan still would find
+ * does not count. data: of the fit, from which faults may have taken rows of the scan. */
+static int fit_explains(const struct scan *scan, const struct evidence_data *data, const rotid_fit_result *fit)
+{
+    int dof = scan->dof - (fit->n - scan->nfree) - (scan->nrow - fit->nresidual);
+    double lines = 0;
+    for (int i = 0; i < data->nrow && data->nrow == fit->nresidual; i++)
+        lines += data->kind[i] == EVIDENCE_FREQUENCY ? fit->r[i] * fit->r[i] : 0;
+    return dof > 0 && chi_square_tail(lines, data->nline) > BLOCK_LEVEL && chi_square_tail(fit->chi2, dof) > BLOCK_LEVEL;
+}
+
 int explanation_explains(const struct engine *engine, const struct posterior *p, const struct explanation *e)
 {
     return fit_explains(p->base, e->data, explanation_fit(engine, e));

@@ -155,6 +155,17 @@ static int settle_data(struct engine *engine, struct round_result *result, const
     return status || !*changed ? status : pairing_note_again(engine);
 }
 
+/* Gives the scan's candidate the start that was found. */
+static void far_starts_mark(const struct engine *engine, struct scan *scan)
+{
+    for (int i = 0; i < scan->ncandidate && engine->far; i++) {
+        const struct scan_candidate *c = &scan->candidate[i];
+        if (c->cause == engine->far->cause && c->effect.target == engine->far->effect.target &&
+            c->effect.variant == engine->far->effect.variant && !c->suspect)
+            scan->candidate[i].far = &engine->far->effect;
+    }
+}
+
 /* The scan, what the rotor as a solid promises, and how probable such data are as noise. */
 static int scan_base(struct engine *engine, struct diagnosis_round *round, struct round_result *result)
 {

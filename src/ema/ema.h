@@ -285,9 +285,6 @@ double modal_fit_evaluate(struct modal_fit *fit, enum modal_fit_part part);
 /* Columns of residues and rests, phi [2 nline * (2 nmode + 4)], on the lines nu of omega/scale for poles in that unit. */
 void modal_fit_columns(int nline, const double *nu, int nmode, const double complex *pole, double *phi);
 
-/* Flat weights: sigma of each channel from its chi2; score, schur, chi2 and spread are brought to it. */
-void modal_fit_noise(struct modal_fit *fit);
-
 /* Mean square of the residual over its standard deviation in each channel within `widths` half-power bandwidths of each of the
  * modes 0 ... count - 1, to noise [nchannel * count]: 1 where the noise is what it was taken for; 1 too where fewer than four
  * lines tell. At fit->pole as it was evaluated last. */

@@ -656,28 +656,6 @@ double modal_fit_evaluate(struct modal_fit *fit, enum modal_fit_part part)
     return sum;
 }
 
-void modal_fit_noise(struct modal_fit *fit)
-{
-    if (fit->weight || fit->equal)
-        return;
-    int p = 2 * fit->nmode, q = fit->nlinear;
-    /* the poles are shared by the channels, so each pays its part of them */
-    double dof = fmax(2.0 * fit->nline - q - (double)p / fit->nchannel, 1);
-    for (int c = 0; c < fit->nchannel; c++) {
-        /* rounding of y'y - x'phi'y bounds from below what can be told of the noise */
-        double old = fit->sigma[c] * fit->sigma[c];
-        double variance = fmax(fit->chi2[c] * old, 1e-16 * fit->yy[c]) / dof, ratio = old / fmax(variance, 1e-300);
-        fit->sigma[c] = sqrt(fmax(variance, 1e-300));
-        fit->chi2[c] *= ratio;
-        for (int j = 0; j < p; j++)
-            fit->score[j + (ptrdiff_t)c * p] *= ratio;
-        for (int j = 0; j < p * p; j++)
-            fit->schur[j + (ptrdiff_t)c * p * p] *= ratio;
-        for (int j = 0; j < q * q; j++)
-            fit->spread[j + (ptrdiff_t)c * q * q] /= ratio;
-    }
-}
-
 int modal_fit_lines(const struct ema_band *band, int nmode, const double complex *pole, double widths, int most, int *line)
 {
     for (int i = 0; i < band->nline; i++)

@@ -295,6 +295,29 @@ static void pole_covariance(struct modal_fit *fit, struct refinement *refinement
             covariance[j + (ptrdiff_t)k * p] *= refinement->widened[j] * refinement->widened[k];
 }
 
+/* Flat weights: sigma of each channel from its chi2; score, schur, chi2 and spread are brought to it. */
+static void modal_fit_noise(struct modal_fit *fit)
+{
+    if (fit->weight || fit->equal)
+        return;
+    int p = 2 * fit->nmode, q = fit->nlinear;
+    /* the poles are shared by the channels, so each pays its part of them */
+    double dof = fmax(2.0 * fit->nline - q - (double)p / fit->nchannel, 1);
+    for (int c = 0; c < fit->nchannel; c++) {
+        /* rounding of y'y - x'phi'y bounds from below what can be told of the noise */
+        double old = fit->sigma[c] * fit->sigma[c];
+        double variance = fmax(fit->chi2[c] * old, 1e-16 * fit->yy[c]) / dof, ratio = old / fmax(variance, 1e-300);
+        fit->sigma[c] = sqrt(fmax(variance, 1e-300));
+        fit->chi2[c] *= ratio;
+        for (int j = 0; j < p; j++)
+            fit->score[j + (ptrdiff_t)c * p] *= ratio;
+        for (int j = 0; j < p * p; j++)
+            fit->schur[j + (ptrdiff_t)c * p * p] *= ratio;
+        for (int j = 0; j < q * q; j++)
+            fit->spread[j + (ptrdiff_t)c * q * q] /= ratio;
+    }
+}
+
 int refine_poles(struct modal_fit *fit, int most, const rotid_environment *environment, struct refinement *refinement)
 {
     int m = fit->nmode, rounds = fit->weight || most == 0 ? 1 : 3;

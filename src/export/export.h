@@ -61,10 +61,6 @@ struct export_model {
 int export_model_open(struct pool *pool, const struct job *job, const struct identification *identified, const char *version,
                       int condense, struct export_model *model);
 
-/* What the model has: parameters of *IDENTIFY with their values there. */
-double export_parameter(const struct export_model *model, int p);
-/* Standard deviation, NaN where it was not identified. */
-double export_parameter_std(const struct export_model *model, int p);
 /* Id of the sensor at master i, without sensors the node from 1. */
 int export_master_id(const struct export_model *model, int i);
 
@@ -78,9 +74,6 @@ struct triplet {
 /* The next entry of the lower triangle that is not zero, column by column, rows increasing; 0 where there is none. As the beam
  * assembles its matrices, the block of far degrees of freedom holds only the entries outside the band. */
 int triplet_next(const rotid_matrix *a, struct triplet *t);
-
-/* How many there are. */
-long triplet_count(const rotid_matrix *a);
 
 /* Comment lines of the files that are written: a description of the model in plain ASCII, each line begun by the mark of the
  * format. */

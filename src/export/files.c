@@ -70,6 +70,18 @@ static void put_frequencies(const struct remark *remark, const char *what, int c
     remark_put(remark, "%s", text);
 }
 
+/* What the model has: parameters of *IDENTIFY with their values there. */
+static double export_parameter(const struct export_model *model, int p)
+{
+    return *parameter_value(model->discrete->rotor, model->job->unknowns.parameter[p]);
+}
+
+/* Standard deviation, NaN where it was not identified. */
+static double export_parameter_std(const struct export_model *model, int p)
+{
+    return model->identified ? model->identified->fit->std[p] : NAN;
+}
+
 static void put_origin(const struct remark *remark, const struct export_model *model)
 {
     const struct job *job = model->job;
@@ -313,6 +325,15 @@ static struct remark begin(FILE *stream, const struct export_model *model, const
     remark_put(&remark, "%s", what);
     remark_model(&remark, model);
     return remark;
+}
+
+/* How many there are. */
+static long triplet_count(const rotid_matrix *a)
+{
+    long count = 0;
+    for (struct triplet t = {.row = -1}; triplet_next(a, &t);)
+        count++;
+    return count;
 }
 
 static int write_full(FILE *stream, const struct export_model *model, const rotid_matrix *a, const char *what)

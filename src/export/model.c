@@ -135,16 +135,6 @@ int export_model_open(struct pool *pool, const struct job *job, const struct ide
     return with_condensed ? condense(pool, model) : ROTID_OK;
 }
 
-double export_parameter(const struct export_model *model, int p)
-{
-    return *parameter_value(model->discrete->rotor, model->job->unknowns.parameter[p]);
-}
-
-double export_parameter_std(const struct export_model *model, int p)
-{
-    return model->identified ? model->identified->fit->std[p] : NAN;
-}
-
 int export_master_id(const struct export_model *model, int i)
 {
     const struct rotor *rotor = &model->job->rotor;
@@ -187,12 +177,4 @@ int triplet_next(const rotid_matrix *a, struct triplet *t)
             return 1;
     }
     return 0;
-}
-
-long triplet_count(const rotid_matrix *a)
-{
-    long count = 0;
-    for (struct triplet t = {.row = -1}; triplet_next(a, &t);)
-        count++;
-    return count;
 }

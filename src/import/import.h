@@ -31,9 +31,6 @@ const char *name_of_set(int number);
 /* Of a function type of set 58, one of them and several: "transfer function", "transfer functions". */
 const char *name_of_function(int type, int plural);
 
-/* Of an ordinate data type: "real single", ... */
-const char *name_of_ordinate(int ordinate);
-
 /* Of an analysis type of sets 55 and 2414. */
 const char *name_of_analysis(int type);
 
@@ -43,9 +40,6 @@ const char *name_of_units(int code);
 /* A degree of freedom as in "19:+X", "19" for a scalar, "19:-RZ" for a rotation. Returns buffer. */
 #define PLACE_MOST 24
 const char *place_text(int node, int direction, char buffer[PLACE_MOST]);
-
-/* Whether the abscissa is time: by its data type or, where that says nothing, by the kind of function. */
-int has_time_axis(const struct uff_function *function);
 
 /* SI unit of a quantity (specific data type of set 58), "" where that is not known. */
 const char *si_unit(int specific_type);

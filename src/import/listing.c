@@ -261,6 +261,16 @@ static const char *named(int item, const struct uff_function *f, char buffer[96]
     return buffer;
 }
 
+/* Whether the abscissa is time: by its data type or, where that says nothing, by the kind of function. */
+static int has_time_axis(const struct uff_function *function)
+{
+    enum { TIME = 17, FREQUENCY = 18 };
+    int type = function->type;
+    if (function->abscissa.specific_type == TIME || function->abscissa.specific_type == FREQUENCY)
+        return function->abscissa.specific_type == TIME;
+    return type == UFF_TIME || type == UFF_AUTO_CORRELATION || type == UFF_CROSS_CORRELATION;
+}
+
 static void check_abscissa(struct search *search, int line, const char *name, const struct listing_function *entry)
 {
     const struct values *v = &entry->values;
@@ -559,6 +569,16 @@ static void find_groups(struct listing *listing)
             --j;
         f[i].group = j >= 0 ? f[j].group : listing->group_count++;
     }
+}
+
+/* Of an ordinate data type: "real single", ... */
+static const char *name_of_ordinate(int ordinate)
+{
+    return ordinate == UFF_REAL_SINGLE      ? "real single"
+           : ordinate == UFF_REAL_DOUBLE    ? "real double"
+           : ordinate == UFF_COMPLEX_SINGLE ? "complex single"
+           : ordinate == UFF_COMPLEX_DOUBLE ? "complex double"
+                                            : "unknown";
 }
 
 static int tell(struct pool *pool, struct listing *listing)

@@ -48,15 +48,6 @@ const char *name_of_function(int type, int plural)
     return type >= 0 && type < COUNT(names) ? names[type][plural != 0] : other[plural != 0];
 }
 
-const char *name_of_ordinate(int ordinate)
-{
-    return ordinate == UFF_REAL_SINGLE      ? "real single"
-           : ordinate == UFF_REAL_DOUBLE    ? "real double"
-           : ordinate == UFF_COMPLEX_SINGLE ? "complex single"
-           : ordinate == UFF_COMPLEX_DOUBLE ? "complex double"
-                                            : "unknown";
-}
-
 const char *name_of_analysis(int type)
 {
     static const char *const names[] = {"unknown",     "static",
@@ -89,15 +80,6 @@ const char *place_text(int node, int direction, char buffer[PLACE_MOST])
     else
         (void)snprintf(buffer, PLACE_MOST, "%d", node);
     return buffer;
-}
-
-int has_time_axis(const struct uff_function *function)
-{
-    enum { TIME = 17, FREQUENCY = 18 };
-    int type = function->type;
-    if (function->abscissa.specific_type == TIME || function->abscissa.specific_type == FREQUENCY)
-        return function->abscissa.specific_type == TIME;
-    return type == UFF_TIME || type == UFF_AUTO_CORRELATION || type == UFF_CROSS_CORRELATION;
 }
 
 const char *si_unit(int specific_type)

@@ -6,7 +6,7 @@
  *
  * Comes in: files of JSON that commands wrote, or a file of results of a study. Goes out: the file. Called by rotid report alone.
  *
- *   page_result_read   a file of JSON, every mistake with its place                                               read.c
+ *   page_result_read   a file of JSON, every mistake with its place                                               compose.c
  *   page_compose       answer, tiles, sections, tables, places of figures, results by rank                        compose.c
  *   answer_*, section_*  what a page says of a kind of result: identification.c, diagnosis.c; the others, basis and
  *                      provenance: compose.c
@@ -30,8 +30,6 @@
 /* Reads a file that a command wrote with --json, or a file of results of a study. Statuses of result_read; the caller deletes
  * result->json. */
 int page_result_read(struct pool *pool, const char *file, struct message_list *messages, struct result *result);
-/* The deck of a result, of a modal analysis the measured file, else the file of the result; of an absolute path the last part. */
-const char *page_source(const struct result *result);
 
 /* ---- the page under construction. Whatever is added when memory is out is lost and marks the document. */
 

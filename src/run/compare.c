@@ -171,15 +171,6 @@ void frf_sums_add(struct frf_sums *sums, int n, const double complex *measured, 
     }
 }
 
-void frf_sums_join(struct frf_sums *sums, const struct frf_sums *other)
-{
-    sums->cross += other->cross;
-    sums->conjugate += other->conjugate;
-    sums->measured += other->measured;
-    sums->synthesised += other->synthesised;
-    sums->lines += other->lines;
-}
-
 static double ratio(const struct frf_sums *sums, double complex cross)
 {
     return sums->measured > 0 && sums->synthesised > 0 ? complex_square(cross) / sums->measured / sums->synthesised : NAN;

@@ -610,6 +610,16 @@ static void judge_band(struct frf_result *out, int row, int b, const double comp
         band->worst = row;
 }
 
+/* Adds what another one holds. */
+static void frf_sums_join(struct frf_sums *sums, const struct frf_sums *other)
+{
+    sums->cross += other->cross;
+    sums->conjugate += other->conjugate;
+    sums->measured += other->measured;
+    sums->synthesised += other->synthesised;
+    sums->lines += other->lines;
+}
+
 static void compare_row(struct frf_result *out, int row, const double complex *measured, const double complex *h,
                         const double complex *moved)
 {

@@ -326,9 +326,6 @@ struct frf_sums {
 /* Adds n lines; those where H^ or H is not finite are left out. */
 void frf_sums_add(struct frf_sums *sums, int n, const double complex *measured, const double complex *synthesised);
 
-/* Adds what another one holds. */
-void frf_sums_join(struct frf_sums *sums, const struct frf_sums *other);
-
 /* Frequency response assurance criterion |sum conj(H^) H|^2/(sum |H^|^2 sum |H|^2) in [0, 1]; NaN where one of them vanishes.
  * Free of scale and sign. */
 double frf_sums_frac(const struct frf_sums *sums);

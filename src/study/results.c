@@ -48,11 +48,6 @@ void digest_text(struct digest *digest, const char *text)
     digest_bytes(digest, text ? strlen(text) : 0, text);
 }
 
-const char *digest_letters(struct pool *pool, const struct digest *digest)
-{
-    return pool_format(pool, "%016llx", (unsigned long long)digest->state);
-}
-
 uint64_t digest_name(const char *name)
 {
     struct digest digest;

@@ -331,6 +331,12 @@ static void digest_more(struct digest *digest, const struct digest *part)
     digest_integer(digest, (long long)part->state);
 }
 
+/* Hexadecimal; NULL where memory is out. */
+static const char *digest_letters(struct pool *pool, const struct digest *digest)
+{
+    return pool_format(pool, "%016llx", (unsigned long long)digest->state);
+}
+
 /* Fills study->deck but for the numbers of runs, study->file and the digests of decks. Errors of the plan go to the list with
  * their places in it, decks that are wrong as they stand as warnings. ROTID_OK, ROTID_ERROR_SYNTAX (also where no deck can be
  * used), ROTID_ERROR_MEMORY. */

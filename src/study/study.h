@@ -46,8 +46,6 @@ void digest_open(struct digest *digest);
 void digest_integer(struct digest *digest, long long value);
 /* With its length, so that "a", "bc" is not "ab", "c". NULL is not "". */
 void digest_text(struct digest *digest, const char *text);
-/* Hexadecimal; NULL where memory is out. */
-const char *digest_letters(struct pool *pool, const struct digest *digest);
 
 /* A number from a text, for streams of random numbers that have names. */
 uint64_t digest_name(const char *name);
@@ -407,8 +405,6 @@ double study_run_truth(const struct study_run *run, const char *name);
 
 /* Whether two runs are of one cell. */
 int summary_same_cell(const struct study_axes *a, const struct study_axes *b);
-/* Whether the diagnoses of a cell could be compared with the hidden effects. */
-int summary_is_scored(const struct study_cell_result *cell);
 
 /* --------------------------------------------------------------------------------------------------------------- workers */
 

@@ -63,11 +63,6 @@ struct sums {
     struct cell_sums *cell;
 };
 
-int summary_is_scored(const struct study_cell_result *cell)
-{
-    return cell->diagnoses && cell->diagnoses->scores[0] != ROTID_NONE;
-}
-
 /* The text in the pool of the summary; NULL for NULL. */
 static const char *keep(struct sums *s, const char *text)
 {

@@ -149,6 +149,12 @@ static const char *named(struct pool *pool, const struct cell_diagnoses *d)
     return text;
 }
 
+/* Whether the diagnoses of a cell could be compared with the hidden effects. */
+static int summary_is_scored(const struct study_cell_result *cell)
+{
+    return cell->diagnoses && cell->diagnoses->scores[0] != ROTID_NONE;
+}
+
 /* Verdicts, and where the plan hid something the scores. */
 static struct table *table_of_cell_diagnoses(struct pool *pool, const struct study_result *s)
 {
