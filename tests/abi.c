@@ -1,7 +1,5 @@
 #include "abi.h"
 
-#include <string.h>
-
 /* Those that a routine makes and hands out by its address, and what a trace is told. */
 static const char *const growing[] = {
     "rotid_deck",       "rotid_check",  "rotid_spectrum",   "rotid_identification", "rotid_diagnosis",

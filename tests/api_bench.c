@@ -1,11 +1,6 @@
 #include "api_bench.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
-
-#include "base/base.h"
 
 #define MODES   5
 #define SENSORS 11

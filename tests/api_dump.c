@@ -1,9 +1,5 @@
 #include "api_dump.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "record/record.h"
 #include "result/result.h"
 #include "support.h"

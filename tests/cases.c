@@ -1,9 +1,6 @@
 /* The tests of a program, as their definitions enter them before main begins. */
 #include "support.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 #define MOST 200 /* of one program */
 
 static struct CMUnitTest cases[MOST];

@@ -1,9 +1,5 @@
 #include "compilers.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "shell.h"
 #include "support.h"
 

@@ -5,8 +5,6 @@
 
 #include "support.h"
 
-#include "base/base.h"
-
 /* [count] zeros; the test fails when memory is out. */
 double *numbers(struct pool *pool, ptrdiff_t count);
 

@@ -1,8 +1,5 @@
 #include "derivative_check.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "dense.h"
 #include "modal/modal.h"
 

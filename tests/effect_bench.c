@@ -1,7 +1,5 @@
 #include "effect_bench.h"
 
-#include <math.h>
-
 #include "linalg/linalg.h"
 #include "paper_rotor.h"
 

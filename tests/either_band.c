@@ -1,7 +1,5 @@
 #include "either_band.h"
 
-#include <string.h>
-
 #include "linalg/linalg.h"
 #include "support.h"
 

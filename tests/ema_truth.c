@@ -1,10 +1,6 @@
 #include "ema_truth.h"
 
-#include <complex.h>
-#include <math.h>
-
 #include "support.h"
-
 
 double truth_free_free(int r, double x)
 {

@@ -2,7 +2,6 @@
 #ifndef ROTID_TESTS_EMA_TRUTH_H
 #define ROTID_TESTS_EMA_TRUTH_H
 
-#include "base/base.h"
 #include "ema/ema.h"
 
 #define TRUTH_MODES  40

@@ -1,7 +1,5 @@
 #include "embedding_oracle.h"
 
-#include <math.h>
-
 #include "oracle/oracle.h"
 #include "support.h"
 

@@ -1,8 +1,5 @@
 #include "exact.h"
 
-#include <math.h>
-#include <stdio.h>
-
 #include "modal/modal.h"
 #include "model/model.h"
 

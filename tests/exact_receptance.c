@@ -1,8 +1,5 @@
 #include "exact_receptance.h"
 
-#include <math.h>
-#include <string.h>
-
 #define MOST_NODES 128
 
 struct grid {

@@ -1,8 +1,6 @@
 #include "export_readers.h"
 
 #include <ctype.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "support.h"
 

@@ -1,8 +1,6 @@
 #include "exported.h"
 #include "one_state.h"
 
-#include <stdio.h>
-#include <stdlib.h>
 #include <unistd.h>
 
 #include "deck/deck.h"

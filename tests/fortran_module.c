@@ -1,7 +1,6 @@
 #include "fortran_module.h"
 
 #include <ctype.h>
-#include <string.h>
 
 enum scope { OUTSIDE, MODULE, TYPE, INTERFACE, PROCEDURE };
 

@@ -1,10 +1,5 @@
 #include "fortran_twin.h"
 
-#include <stdarg.h>
-#include <string.h>
-
-#include "base/base.h"
-
 struct comparison {
     struct pool *pool;
     const struct header *header;

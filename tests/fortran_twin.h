@@ -2,8 +2,6 @@
 #ifndef ROTID_TESTS_FORTRAN_TWIN_H
 #define ROTID_TESTS_FORTRAN_TWIN_H
 
-#include <stdio.h>
-
 #include "fortran_module.h"
 #include "header.h"
 

@@ -1,7 +1,5 @@
 #include "fortran_types.h"
 
-#include <string.h>
-
 #define FIRST "rotid_material"
 #define LAST  "rotid_speeds"
 #define BEGIN                                                                                                                    \

@@ -1,9 +1,6 @@
 #define _GNU_SOURCE /* memfd_create */
 #include "fuzz_one.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/mman.h>
 #include <unistd.h>
 

@@ -1,10 +1,5 @@
 #include "hammer_bench.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "hidden.h"
 
 static const double two_pi = 6.28318530717958647692;

@@ -1,8 +1,5 @@
 #include "header.h"
 
-#include <stdio.h>
-#include <string.h>
-
 #define MOST_BYTES (1 << 20)
 
 int header_read(struct pool *pool, const char *path, struct header *header)

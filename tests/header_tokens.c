@@ -1,7 +1,6 @@
 #include "header_tokens.h"
 
 #include <ctype.h>
-#include <string.h>
 
 #define MOST_CONDITIONS 16
 

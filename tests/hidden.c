@@ -1,11 +1,6 @@
 #include "hidden.h"
 #include "one_state.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-
-#include "base/base.h"
 #include "deck/deck.h"
 
 char *hidden_read(const char *path)

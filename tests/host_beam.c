@@ -1,8 +1,5 @@
 #include "host_beam.h"
 
-#include <math.h>
-#include <stdlib.h>
-
 #include "dense.h"
 
 const double beam_truth[3] = {1.2, 0.7, 0.4};

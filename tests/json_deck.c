@@ -1,10 +1,5 @@
 #include "json_deck.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "api/api.h"
 #include "result/result.h"
 #include "support.h"

@@ -1,8 +1,5 @@
 #include "paper_fit.h"
 
-#include <math.h>
-#include <string.h>
-
 static const double two_pi = 6.28318530717958647692;
 const double scipy_optimum[2] = {1.15706008143e11, 3.16081329582e10};
 const double scipy_objective = 0.0230527340282;

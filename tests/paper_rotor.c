@@ -1,7 +1,5 @@
 #include "paper_rotor.h"
 
-#include <math.h>
-
 const double paper_measured_hz[PAPER_MODES] = {435.55, 735.16, 1159.4, 1802.0, 2425.8, 2918.4};
 const double paper_start[2] = {0.6e11, 0.3e11};
 const struct parameter paper_parameters[2] = {{PARAMETER_E, 1, 0, 0, NULL}, {PARAMETER_G, 1, 0, 0, NULL}};

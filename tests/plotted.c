@@ -1,10 +1,5 @@
 #include "plotted.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "json_value.h"
 #include "support.h"
 

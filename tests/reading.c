@@ -1,7 +1,5 @@
 #include "reading.h"
 
-#include <string.h>
-
 #include "folder.h"
 #include "support.h"
 

@@ -1,8 +1,5 @@
 #include "rotor_shapes.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "paper_rotor.h"
 
 void rotor_shapes_open(struct exact *exact)

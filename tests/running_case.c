@@ -1,10 +1,5 @@
 #include "running_case.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "api/api.h"
 #include "folder.h"
 #include "support.h"

@@ -1,8 +1,5 @@
 #include "same_job.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "support.h"
 
 static void assert_text(const char *a, const char *b)

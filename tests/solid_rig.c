@@ -1,7 +1,5 @@
 #include "solid_rig.h"
 
-#include <math.h>
-
 #include "linalg/linalg.h"
 
 const struct material rig_steel = {.name = "steel", .e = 2.1e11, .nu = 0.3, .rho = 7850, .isotropic = 1};

@@ -1,8 +1,5 @@
 #include "struck.h"
 
-#include <math.h>
-
-#include "base/base.h"
 #include "support.h"
 
 double complex struck_pole(const struct struck_mode *mode)

@@ -3,11 +3,7 @@
 #ifndef ROTID_TESTS_STRUCK_H
 #define ROTID_TESTS_STRUCK_H
 
-#include <complex.h>
-#include <stdint.h>
-
 #include "signal/signal.h"
-
 
 struct struck_mode {
     double frequency_hz, damping, residue; /* R = phi_response phi_force/m [1/kg] */

@@ -1,8 +1,5 @@
 #include "support.h"
 
-#include <math.h>
-#include <stdlib.h>
-
 void assert_close_at(double value, double expected, double rtol, double atol, const char *text, const char *file, int line)
 {
     double difference = fabs(value - expected);

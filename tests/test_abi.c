@@ -1,9 +1,5 @@
 /* The public header beside the snapshot of it that hosts may have been compiled with, include/rotid.abi. With --write this
  * program writes the snapshot anew (make abi); --unreleased: also where hosts of the old one would break. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "abi.h"
 #include "support.h"
 

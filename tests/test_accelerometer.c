@@ -1,12 +1,7 @@
 /* The accelerometer that goes from sensor to sensor in whole diagnoses: a free beam of 6 kg and the paper's rotor, whose exact
  * frequencies the oracle gives with the mass at each sensor in turn. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
-#include "base/base.h"
 #include "deck/deck.h"
 #include "diagnose/diagnose.h"
 #include "exact.h"

@@ -1,8 +1,4 @@
 /* A host's allocator that fails at the n-th request, for every n, and a host that cancels at the k-th poll. */
-#include <math.h>
-#include <stdint.h>
-#include <string.h>
-
 #include "fit/fit.h"
 #include "paper_fit.h"
 #include "support.h"

@@ -1,10 +1,4 @@
 /* Tables of an analyser: the transfer functions of a formula, written in every way they come, and the mistakes in them. */
-#include <complex.h>
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "base/base.h"
 #include "folder.h"
 #include "import/import.h"
 #include "support.h"

@@ -1,8 +1,4 @@
 /* The first layer of rotid.h: what a deck shows, and closed forms of its modes. The program is the first user of it. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "api_bench.h"

@@ -1,15 +1,10 @@
 /* A host that says stop, once or from then on: what is still computed, what it is told, and what it gets. */
 #include <limits.h>
-#include <math.h>
 #include <stdatomic.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "api_bench.h"
 #include "api_dump.h"
-#include "base/base.h"
 #include "fit/fit.h"
 #include "folder.h"
 #include "paper_fit.h"

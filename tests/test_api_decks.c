@@ -1,10 +1,6 @@
 /* What a host is told where something is wrong: the place and what was expected, in the result and nowhere else. */
 #include <dirent.h>
 #include <fcntl.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 

@@ -1,8 +1,4 @@
 /* rotid_diagnose: a hidden effect that it names, and the deck that it hands over. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "api_bench.h"

@@ -1,10 +1,6 @@
 /* The memory of the first layer: every allocation that fails, all of it from the host's allocator, all of it given back, and no
  * result that leans on the deck. */
 #include <errno.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "api_bench.h"

@@ -2,12 +2,6 @@
 #include "support.h"
 
 #include <limits.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/base.h"
 
 /* ---- an allocator that hands out dirty memory and sees writes behind a block */
 

@@ -1,6 +1,5 @@
 /* Modes and buckling of uniform beams against closed forms, and the order in which the elements converge to them. */
 #include <float.h>
-#include <math.h>
 
 #include "beam/beam.h"
 #include "linalg/linalg.h"

@@ -1,7 +1,5 @@
 /* dK/dx and dM/dx of the assembled rotor for every kind of parameter, against differences of the assembled matrices; and what
  * beam_build refuses. */
-#include <math.h>
-
 #include "linalg/linalg.h"
 #include "model/model.h"
 #include "paper_rotor.h"

@@ -1,7 +1,4 @@
 /* The assembled rotor under rigid motions, its rods and bars by their energies, the sling, and which modes count as rigid. */
-#include <math.h>
-#include <string.h>
-
 #include "linalg/linalg.h"
 #include "model/model.h"
 #include "paper_rotor.h"

@@ -1,9 +1,4 @@
 /* The beam beside the solid, what a solid says of its mesh, and what a result carries of its meridian. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "rotid.h"
 #include "support.h"
 
 #define STEEL  "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"

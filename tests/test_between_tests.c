@@ -1,9 +1,4 @@
 /* Modes of several tests as one, the scatter between them, and the floors that a deck takes from what its file states. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "base/base.h"
 #include "deck/deck.h"
 #include "ema/ema.h"
 #include "folder.h"

@@ -2,9 +2,6 @@
 #include "dense.h"
 #include "support.h"
 
-#include <math.h>
-#include <string.h>
-
 static const int far[3] = {1, 7, 18};
 
 /* Structures: band, band with block, wide band, dense. */

@@ -2,9 +2,6 @@
 #include "dense.h"
 #include "support.h"
 
-#include <math.h>
-#include <string.h>
-
 static const int far[3] = {1, 9, 21};
 static const int structures[][3] = {{24, 3, 0}, {24, 2, 3}, {24, 12, 0}, {24, 23, 0}, {3, 1, 0}};
 

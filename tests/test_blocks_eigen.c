@@ -2,9 +2,6 @@
 #include "dense.h"
 #include "support.h"
 
-#include <math.h>
-#include <string.h>
-
 static const double pi = 3.14159265358979323846;
 
 static double *lambda_of(struct pool *pool, const rotid_matrix *k, const rotid_matrix *m, int count, double **phi)

@@ -4,8 +4,6 @@
 #include "host_beam.h"
 #include "support.h"
 
-#include <math.h>
-
 static rotid_fit_result *fit(struct beam_host *host, const struct beam_data *data, int functional, int reduction)
 {
     rotid_fit_options options = {.size = sizeof options, .functional = functional, .reduction = reduction};

@@ -2,10 +2,6 @@
 #include "dense.h"
 #include "support.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 static const int far[3] = {1, 7, 10};
 
 /* A matrix of n = 12, kd = 2 with a block on 1, 7, 10; zero. */

@@ -1,6 +1,5 @@
 /* The bijection (30) between bounds, and the quantiles that intervals and tests take from. */
 #include <float.h>
-#include <math.h>
 
 #include "fit/fit.h"
 #include "support.h"

@@ -2,10 +2,6 @@
  * bands and distorted ones do not, and a case goes from the draw to its line in the log. */
 #include "support.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "deck/deck.h"

@@ -1,7 +1,5 @@
 /* Physical causes of the catalogue: geometry of the cones at steps, means over elements, bounds and where a cause applies. Their
  * frequencies: test_causes_exact.c. */
-#include <math.h>
-
 #include "diagnose/causes/causes.h"
 #include "effect_bench.h"
 #include "support.h"

@@ -1,8 +1,5 @@
 /* Physical causes of the catalogue in the finite elements against exact dynamic stiffness, where each effect is worked out from
  * its definition with no help of librotid. Geometry, bounds and where a cause applies: test_causes.c. */
-#include <math.h>
-#include <stdio.h>
-
 #include "effect_bench.h"
 #include "exact.h"
 #include "support.h"

@@ -1,13 +1,8 @@
 /* The whole way: a virtual hammer test (tools/hammer, which shares no code with the library) writes time records; transfer
  * functions, modes, moduli and the diagnosis come from them, and are compared with what was simulated. ROTID_CHAIN_RUNS=100 (make
  * chain) repeats the paper's rotor with fresh noise as often. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
-#include "base/base.h"
 #include "deck/deck.h"
 #include "diagnose/diagnose.h"
 #include "hammer_bench.h"

@@ -1,8 +1,4 @@
 /* How probable a scan's frequencies are as noise: shares of simulated noise, and closed forms. */
-#include <math.h>
-#include <stdlib.h>
-
-#include "base/base.h"
 #include "diagnose/diagnose.h"
 #include "fit/fit.h"
 #include "support.h"

@@ -1,8 +1,4 @@
 /* rotid_check_jacobian: right Jacobians pass, wrong ones are found at their column, and what cannot be told is said. */
-#include <math.h>
-#include <stdint.h>
-#include <string.h>
-
 #include "more_garbow_hillstrom.h"
 #include "support.h"
 

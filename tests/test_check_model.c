@@ -1,8 +1,5 @@
 /* rotid_check_model: the derivatives of a right model pass, wrong ones are found at their parameter and matrix, and a model that
  * the fit would refuse is refused. */
-#include <math.h>
-#include <string.h>
-
 #include "dense.h"
 #include "host_beam.h"
 #include "linalg/linalg.h"

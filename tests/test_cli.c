@@ -1,12 +1,7 @@
 /* The program as its users and their scripts see it: exit codes, what goes to which stream, JSON, files, --set. */
 #include <dirent.h>
 #include <fcntl.h>
-#include <math.h>
 #include <spawn.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>

@@ -1,8 +1,5 @@
 /* Sensitivity columns of the scan: beside the Jacobian of the likelihood for what the job itself identifies, and beside
  * differences of the residual for every physical cause of the catalogue. */
-#include <math.h>
-#include <string.h>
-
 #include "diagnose/causes/causes.h"
 #include "diagnose/diagnose.h"
 #include "effect_bench.h"

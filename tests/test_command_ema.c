@@ -1,11 +1,6 @@
 /* rotid ema as its users see it: the modes of a real bar as JSON and as a file for a deck, and what is refused. */
-#include <complex.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/wait.h>
 
-#include "base/base.h"
 #include "deck/deck.h"
 #include "json_value.h"
 #include "one_state.h"

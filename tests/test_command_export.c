@@ -1,11 +1,7 @@
 /* `rotid export` as its users and their scripts see it: what is fitted first, which files there are, what is refused, what is
  * left when something fails, and how large and slow a large model is. */
 #include <dirent.h>
-#include <math.h>
 #include <signal.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <sys/times.h>
 #include <sys/wait.h>

@@ -1,10 +1,5 @@
 /* `rotid frf` end to end: the paper's Figure 15, measured functions out of a universal file that the oracle made, what comes out
  * as JSON and universal file, and what is refused. */
-#include <complex.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 

@@ -2,9 +2,6 @@
  * all of them. */
 #include "support.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "folder.h"
 #include "page/page.h"
 #include "shell.h"

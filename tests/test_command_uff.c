@@ -1,7 +1,5 @@
 /* rotid uff as its users see it: the listing, the doubtful places, refusals. */
 #include <cJSON.h>
-#include <math.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "support.h"

@@ -1,12 +1,9 @@
 /* What the program says to a person: help with examples, the nearest name where one is misspelt, colours on a terminal. */
 #define _GNU_SOURCE /* posix_openpt */
 #include <fcntl.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/base.h"
 #include "cli/cli.h"
 #include "folder.h"
 #include "shell.h"

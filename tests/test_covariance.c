@@ -1,8 +1,4 @@
 /* Covariance, intervals and undetermined directions, against dense formulas, constructed Jacobians and simulated data. */
-#include <math.h>
-#include <string.h>
-
-#include "base/base.h"
 #include "fit/fit.h"
 #include "support.h"
 

@@ -1,9 +1,5 @@
 /* Right decks: every card into the right numbers of a job, and the freedom of form that a deck has. Wrong ones:
  * test_wrong_decks.c; measured data from universal files: test_decks.c; --set: test_cli.c. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 

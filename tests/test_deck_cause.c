@@ -1,12 +1,7 @@
 /* CAUSE cards: every type into the right numbers of a job, faults of the measurement chain taken out of the data, and parameters
  * of causes identified. Wrong cards: tests/data/decks/wrong. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
-#include "base/base.h"
 #include "deck/deck.h"
 #include "diagnose/causes/causes.h"
 #include "folder.h"

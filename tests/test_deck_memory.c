@@ -1,8 +1,5 @@
 /* Decks from memory: the same as from a file, errors with their places, files only where the host has said where, and texts of
  * anybody. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "api_dump.h"

@@ -1,7 +1,4 @@
 /* Cards behind *RUNNING: what they make, and what is said of those that cannot be. */
-#include <math.h>
-#include <string.h>
-
 #include "api/api.h"
 #include "deck/deck.h"
 #include "folder.h"

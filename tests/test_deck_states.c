@@ -2,9 +2,6 @@
 #include "one_state.h"
 #include "support.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "deck/deck.h"
 #include "folder.h"
 

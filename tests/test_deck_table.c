@@ -1,10 +1,5 @@
 /* Tables in the place of data lines: what spreadsheets write, in two locales, and every mistake with its row and column. The
  * numbers are those that were typed into the sheets, or into the table of the test. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "deck/deck.h"
 #include "folder.h"
 #include "reading.h"

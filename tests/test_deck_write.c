@@ -1,9 +1,5 @@
 /* A deck that is written is the text it was read from, with what has to change in it, and reads as what was meant. */
 #include <glob.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 

@@ -1,8 +1,4 @@
 /* What --set and *MEASURED make of a deck; the shipped decks end to end, with the numbers that their headings state. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "deck/deck.h"

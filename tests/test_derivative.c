@@ -3,8 +3,6 @@
 #include "derivative_check.h"
 #include "paper_rotor.h"
 
-#include <math.h>
-
 #include "linalg/linalg.h"
 #include "modal/modal.h"
 #include "model/model.h"

@@ -2,8 +2,6 @@
  * sum of phi phi' over a pair is a smooth function whatever the gap is, and differences of it are the witness. */
 #include "dense.h"
 
-#include <math.h>
-
 #include "linalg/linalg.h"
 #include "modal/modal.h"
 #include "support.h"

@@ -2,9 +2,6 @@
 #include "dense.h"
 #include "derivative_check.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "linalg/linalg.h"
 #include "modal/modal.h"
 #include "support.h"

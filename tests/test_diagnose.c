@@ -1,13 +1,8 @@
 /* The diagnosis as a whole on a small rotor: the same for any number of threads, interrupted or out of memory at any point, and
  * on data that cannot carry a name. Decks are written as a user would write them; the data are modes of a rotor with an effect
  * in it that the deck does not have, and noise. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
-#include "base/base.h"
 #include "deck/deck.h"
 #include "diagnose/causes/causes.h"
 #include "diagnose/diagnose.h"

@@ -1,9 +1,5 @@
 /* The diagnosis of the decks in input/: data of tests that were really made, and of solids that are no beams. Limits are
  * those that were set before the diagnosis was written. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "deck/deck.h"

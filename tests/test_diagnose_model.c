@@ -3,10 +3,6 @@
  */
 #include "support.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "base/base.h"
 #include "host_beam.h"
 #include "modal/modal.h"
 

@@ -3,11 +3,6 @@
 #include "one_state.h"
 #include "support.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "base/base.h"
 #include "deck/deck.h"
 #include "diagnose/causes/causes.h"
 #include "diagnose/diagnose.h"

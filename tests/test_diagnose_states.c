@@ -2,10 +2,6 @@
 #include "reading.h"
 #include "support.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "api/api.h"
 #include "deck/deck.h"
 #include "diagnose/causes/causes.h"

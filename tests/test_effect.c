@@ -1,7 +1,4 @@
 /* What effects do to the beam: nothing at their neutral values, lumped masses anywhere, hinges, mass properties, names. */
-#include <math.h>
-#include <string.h>
-
 #include "beam/beam.h"
 #include "effect_bench.h"
 #include "linalg/linalg.h"

@@ -1,7 +1,5 @@
 /* Every analytic derivative in the presence of effects against differences: the parameters of each cause, those of the base
  * beside it, all pairs of causes, the joint with and without rods, a mass at any place. */
-#include <math.h>
-
 #include "effect_bench.h"
 #include "support.h"
 

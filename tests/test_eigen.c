@@ -5,8 +5,6 @@
 #include "paper_rotor.h"
 
 #include <cblas.h>
-#include <math.h>
-#include <string.h>
 
 #include "linalg/linalg.h"
 #include "support.h"

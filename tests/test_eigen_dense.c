@@ -1,9 +1,6 @@
 /* The dense eigenvalue problem of a condensed model: residuals, orthonormality, the banded solver as second opinion. */
 #include "dense.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "linalg/linalg.h"
 #include "support.h"
 

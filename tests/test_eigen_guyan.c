@@ -2,9 +2,6 @@
 #include "dense.h"
 #include "paper_rotor.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "modal/modal.h"
 #include "model/model.h"
 #include "support.h"

@@ -2,10 +2,6 @@
 #include "dense.h"
 #include "paper_rotor.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "linalg/linalg.h"
 #include "model/model.h"
 #include "support.h"

@@ -1,13 +1,9 @@
 /* Eigenpairs of matrices whose eigenvalues are stated: K = S Q D Q' S, M = S^2 with block rotations Q, over numbers of rows, half
  * bands, counts, clusters and scales of 1e12. Meant for the address sanitizer too: each solver owns a workspace. */
-#include "base/base.h"
 #include "dense.h"
 #include "support.h"
 
 #include <float.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum spectrum { SPREAD, TWO_VALUES, FEW_COPIES, HALF_ZERO, ALL_EQUAL, TRIPLES, STIFF_PAIRS, SPECTRA, DENSE };
 

@@ -1,7 +1,4 @@
 /* Element matrices against rigid motions, cantilevers, quadrature of the exact static shapes, and differences. */
-#include <math.h>
-#include <string.h>
-
 #include "beam/beam.h"
 #include "support.h"
 

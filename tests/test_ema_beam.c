@@ -1,10 +1,4 @@
 /* Measured transfer functions of a free-free bar: data/beam.uff of pyuff 2.4.2 (MIT), lines around the modes. */
-#include <complex.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "ema/ema.h"
 #include "support.h"
 

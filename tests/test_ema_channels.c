@@ -1,9 +1,4 @@
 /* Points, directions, references; transfer functions that are wrong; what is refused. */
-#include <complex.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "ema/ema.h"
 #include "ema_truth.h"
 #include "support.h"

@@ -1,11 +1,4 @@
 /* Modes come back from transfer functions summed in closed form. */
-#include <complex.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/base.h"
 #include "ema_truth.h"
 #include "support.h"
 

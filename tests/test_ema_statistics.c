@@ -1,8 +1,4 @@
 /* Standard deviations against the scatter over repeated measurements; the choice of modes over random systems. */
-#include <complex.h>
-#include <math.h>
-#include <stdlib.h>
-
 #include "ema_truth.h"
 #include "support.h"
 

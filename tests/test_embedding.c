@@ -1,10 +1,5 @@
 /* The programs of docs/embedding.md, built against the library as it is installed, by the commands that stand there, with CC, CXX
  * and FC, shared and static: what they print, against what is known without librotid. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "compilers.h"
 #include "embedding_oracle.h"
 #include "fortran_twin.h"

@@ -1,8 +1,6 @@
 /* Equations of the paper that do not hold as printed: the corrected form passes, the printed one, which lives only here, fails by
  * the number that docs/errata.md gives. Here sections, elements and springs; test_errata_functional.c and test_errata_modal.c
  * have the rest. */
-#include <math.h>
-
 #include "beam/beam.h"
 #include "linalg/linalg.h"
 #include "paper_rotor.h"

@@ -1,8 +1,5 @@
 /* What the paper says of its functional, (15) to (25) and (43), where it does not hold: beside each statement what does, on the
  * paper's rotor and on the paper's own assumption (19b). docs/errata.md lists the numbers. */
-#include <math.h>
-
-#include "base/base.h"
 #include "modal/modal.h"
 #include "model/model.h"
 #include "paper_rotor.h"

@@ -1,9 +1,5 @@
 /* The paper's derivatives (37) to (41): the corrected forms agree with central differences, the printed ones, which live only
  * here, are off by the numbers of docs/errata.md. */
-#include <math.h>
-#include <string.h>
-
-#include "base/base.h"
 #include "beam/beam.h"
 #include "linalg/linalg.h"
 #include "modal/modal.h"

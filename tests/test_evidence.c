@@ -1,9 +1,5 @@
 /* The evidence of explanations (src/diagnose/laplace.c) beside integrals over a grid of the same likelihood and priors, which
  * share nothing with it but the residual: each within 0.3 in ln Z. The bar on foam, real data. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "deck/deck.h"
 #include "diagnose/diagnose.h"
 #include "one_state.h"

@@ -1,9 +1,5 @@
 /* Finite elements against exact dynamic stiffness (tools/oracle): the order in which they converge, the paper's rotor with its
  * mesh error, and random rotors. What can hang on a shaft is in test_exact_ties.c. */
-#include <math.h>
-#include <stdio.h>
-
-#include "base/base.h"
 #include "exact.h"
 #include "modal/modal.h"
 #include "model/model.h"

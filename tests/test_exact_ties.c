@@ -1,9 +1,5 @@
 /* What can be put on a shaft, one kind at a time, against exact dynamic stiffness (tools/oracle): sections, disks, springs, axial
  * forces, tie rods, bars, sling. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "exact.h"
 #include "support.h"
 

@@ -1,8 +1,4 @@
 /* Matrices that rotid export writes, read back by readers of the test's own: to the last bit, rigid bodies, signs. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "export/export.h"
 #include "exported.h"
 #include "linalg/linalg.h"

@@ -2,11 +2,7 @@
  * unknowns, callbacks that give NaN or infinity or fail at any call. Every array has exactly its stated length, so the address
  * sanitizer sees what is read or written beyond. */
 #include <limits.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "base/base.h"
 #include "dense.h"
 #include "host_beam.h"
 #include "support.h"

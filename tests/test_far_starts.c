@@ -1,7 +1,4 @@
 /* How far starts are ranked: what all frequencies have in common, a parameter of the deck puts right. */
-#include <math.h>
-#include <string.h>
-
 #include "deck/deck.h"
 #include "diagnose/far_starts.c" /* the cost is its own */
 #include "effect_bench.h"

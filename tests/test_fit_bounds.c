@@ -1,10 +1,5 @@
 /* Bounds, starts and arguments of rotid_fit on the paper's rotor: what presses against a bound says so, what only passed near one
  * does not stay there, and what cannot be fitted is refused. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "base/base.h"
 #include "paper_fit.h"
 #include "support.h"
 

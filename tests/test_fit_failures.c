@@ -1,8 +1,6 @@
 /* A host whose model fails while it is fitted: once, for ever from the n-th call on, or beyond an edge; with derivatives of its
  * own, and where they are differences. */
 #include <limits.h>
-#include <math.h>
-#include <string.h>
 
 #include "dense.h"
 #include "host_beam.h"

@@ -1,7 +1,4 @@
 /* What a fit hands back beside its parameters: residuals, their Jacobian, and both without any parameter. */
-#include <math.h>
-#include <string.h>
-
 #include "paper_fit.h"
 #include "support.h"
 

@@ -2,9 +2,6 @@
  * for itself; and what is refused, by name. */
 #include "host_beam.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "dense.h"
 #include "modal/modal.h"
 #include "support.h"

@@ -1,8 +1,4 @@
 /* Identification from data whose truth is known: predictions of the full model, with and without noise. */
-#include <math.h>
-#include <string.h>
-
-#include "base/base.h"
 #include "paper_fit.h"
 #include "support.h"
 

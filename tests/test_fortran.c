@@ -1,7 +1,4 @@
 /* rotid.f90 is the twin of rotid.h: by what the two declare, and by what compilers make of them. */
-#include <stdlib.h>
-#include <string.h>
-
 #include "compilers.h"
 #include "fortran_twin.h"
 #include "fortran_types.h"

@@ -2,11 +2,6 @@
  * nothing with the library. The steel beam is identified from its true frequencies; then the synthesised functions are the exact
  * ones, and those out of the records agree with them. */
 #include <cJSON.h>
-#include <complex.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/wait.h>
 
 #include "folder.h"

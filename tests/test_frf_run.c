@@ -1,9 +1,5 @@
 /* Which functions are synthesised, with which damping, and what their agreement with measured ones says: on jobs and measured
  * functions made in memory. */
-#include <complex.h>
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 #include <time.h>
 
 #include "run/run.h"

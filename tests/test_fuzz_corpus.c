@@ -1,7 +1,5 @@
 /* The inputs the fuzzers start from, among them those that once made a reader fail; see make fuzz. */
 #include <dirent.h>
-#include <stdio.h>
-#include <stdlib.h>
 
 #include "fuzz_one.h"
 #include "support.h"

@@ -1,8 +1,6 @@
 /* How the hybrid functionals grow away from the optimum, beside closed forms. */
 #include "support.h"
 
-#include <math.h>
-
 #include "paper_rotor.h"
 #include "run/run.h"
 

@@ -1,7 +1,4 @@
 /* Records of the virtual hammer test: transfer functions, closed forms, noise, random numbers. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
 #include "hammer_bench.h"

@@ -1,8 +1,4 @@
 /* What can go wrong in the virtual hammer test: faults of channels and impacts, and wrong options. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "hammer/hammer_command.h"

@@ -1,8 +1,4 @@
 /* Modes, masses and the rest of the virtual hammer test, against a direct solution of the exact dynamic stiffness. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "hammer_bench.h"
 #include "hide/hide_model.h"
 #include "hide/hide_parameter.h"

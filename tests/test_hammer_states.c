@@ -2,9 +2,6 @@
  * modes file of each. From records to moduli: docs/hammer.md. */
 #include "support.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 #include "exact.h"
 #include "folder.h"
 #include "hammer/hammer.h"

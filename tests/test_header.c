@@ -1,7 +1,4 @@
 /* The reader of rotid.h that the comparisons of the interface rest on: what it reads, and that it passes nothing over. */
-#include <stdio.h>
-#include <string.h>
-
 #include "header.h"
 #include "support.h"
 

@@ -4,10 +4,6 @@
 #include "reading.h"
 #include "solid_rig.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "deck/deck.h"
 #include "model/model.h"
 #include "run/run.h"

@@ -3,13 +3,8 @@
  * every third, unless ROTID_LONG is set (make test-long). tools/power does the same with fresh ones by the thousand. */
 #include "support.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
-#include "base/base.h"
 #include "hidden.h"
 
 #define JOBS 2

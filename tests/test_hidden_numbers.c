@@ -4,10 +4,6 @@
 #include "one_state.h"
 #include "support.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "deck/deck.h"
 #include "diagnose/diagnose.h"
 #include "hidden.h"

@@ -2,12 +2,8 @@
  * outside of the catalogue, where no pair may be named. tools/power does the same with fresh ones. */
 #include "support.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
-#include "base/base.h"
 #include "hidden.h"
 
 #define JOBS 2
@@ -31,7 +27,7 @@ static const struct {
      {"stiffness:group=left,factor=0.7", "joint:at=core.end,flexibility=9e-9"}}, /* too large for columns without effects */
     {ALONE, 6, {"stiffness_gradient:group=core,slope=0.4"}},
     {ALONE, 7, {"stiffness_local:depth=0.6,z=0.857,width=0.04,shape=gaussian"}},
-    {ALONE, 8, {"stiffness:group=left,factor=2.2"}}, /* beyond the usual bounds */
+    {ALONE, 8, {"stiffness:group=left,factor=2.2"}},                         /* beyond the usual bounds */
     {NO_PAIR, 12, {"outside:kind=density_zone,factor=1.5,z=0.6,width=0.5"}}, /* two masses stand for a shorter one */
     {NO_PAIR, 12, {"outside:kind=inertia,z=0.6,inertia=3"}},
 };

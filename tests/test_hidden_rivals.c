@@ -2,12 +2,8 @@
  * accused, and what is at fault is found beside the effect. */
 #include "support.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
-#include "base/base.h"
 #include "hidden.h"
 
 #define MOST 2

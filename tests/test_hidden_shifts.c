@@ -1,10 +1,6 @@
 /* What a diagnosis says may hide in its parameters: each cause is put into the rotor with the size that is said, the modes are
  * those of that rotor, and the model without the cause is fitted to them. The fit is not linear, so it judges the linear number.
  * Data are free of noise. Beam, layers, a solid, two states. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "diagnose/causes/causes.h"
 #include "reading.h"
 #include "support.h"

@@ -1,10 +1,6 @@
 /* Causes that small structures have, hidden by tools/hide and diagnosed: hubs on a thin shaft, a strip in a vice, a beam on a
  * roller. What is looked for: the name, and a size near enough. The mesh
  * is that of a user, elements as long as a quarter of a hub. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "hidden.h"

@@ -1,10 +1,6 @@
 /* The generator of hidden effects (tools/hide): its physics against the oracle and against decks that say the same in other
  * cards, its noise, its faults of the data, its messages. */
-#include <math.h>
 #include <pthread.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include <cjson/cJSON.h>
 

@@ -1,10 +1,5 @@
 /* Effects that tools/hide hides in one rotor in several states: the data of each state are those of its own deck, parameters and
  * effects are common, and what the identification makes of them. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include <cjson/cJSON.h>
 
 #include "folder.h"

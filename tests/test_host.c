@@ -1,13 +1,7 @@
 /* What a call leaves of its host: traps, flags, rounding, locale and the number of BLAS threads are as they were, and none of
  * them changes a number of the result. */
 #define _GNU_SOURCE /* feenableexcept */
-#include <fenv.h>
-#include <locale.h>
-#include <math.h>
 #include <signal.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -15,7 +9,6 @@
 
 #include "api_bench.h"
 #include "api_dump.h"
-#include "base/base.h"
 #include "paper_fit.h"
 #include "support.h"
 

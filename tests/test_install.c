@@ -1,8 +1,5 @@
 /* The library as hosts get it: what make install puts where and make uninstall takes away, the names both libraries show, hosts
  * in C and C++ linked against them, and that the rooms of the library call nothing that a library has no business to call. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "shell.h"

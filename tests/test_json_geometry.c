@@ -1,10 +1,6 @@
 /* The geometry in a result is the deck's, at the values of the model that the result is of. */
 #include "support.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "json_deck.h"
 
 #define STEEL "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"

@@ -1,12 +1,6 @@
 /* Shapes in a result: measured and predicted on one scale, along the axis and beside it, and the matrices of their likeness. */
 #include "support.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/base.h"
 #include "json_deck.h"
 #include "result/result.h"
 #include "run/run.h"

@@ -1,9 +1,4 @@
 /* What is judged of a result, by its definition, on results made by hand. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "diagnose/diagnose.h"
 #include "fit/fit.h"
 #include "report/report.h"

@@ -1,9 +1,5 @@
 /* Layers of a beam: what parts of a section do together, the shear coefficient of sheets across the axis, derivatives by the
  * parameters and effects of a layer; and how a deck lays them. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "beam/beam.h"
 #include "deck/deck.h"
 #include "effect_bench.h"

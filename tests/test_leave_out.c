@@ -1,8 +1,4 @@
 /* Prediction of what was not fitted, beside fits that really leave it out, and the errors of a fit beside their definitions. */
-#include <math.h>
-#include <string.h>
-
-#include "base/base.h"
 #include "diagnose/diagnose.h"
 #include "effect_bench.h"
 #include "modal/modal.h"

@@ -1,8 +1,6 @@
 /* What holds a program: too little address space, a pipe with nobody at its other end, a computation that does not look at
  * signals. None of these does. */
 #include <signal.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>

@@ -3,8 +3,6 @@
 
 #include <cblas.h>
 #include <lapacke.h>
-#include <math.h>
-#include <string.h>
 
 #include "linalg/linalg.h"
 #include "support.h"

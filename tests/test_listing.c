@@ -1,8 +1,4 @@
 /* The numbers a function is summed up in, and a listing under failing memory and cancellation. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "import/import.h"

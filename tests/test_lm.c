@@ -1,12 +1,9 @@
 /* The contract of rotid_lm: what it returns, counts, refuses and leaves behind. Its minima are in test_lm_problems.c. */
-#include <math.h>
-#include <string.h>
+#include "support.h"
 
 #if defined(__GLIBC__)
 #include <malloc.h>
 #endif
-
-#include "support.h"
 
 #define M 12
 

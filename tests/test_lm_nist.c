@@ -1,8 +1,5 @@
 /* rotid_lm as a host calls it first, with every option at its default, on NIST's nonlinear regression problems, and that its path
  * and the check of a Jacobian do not depend on the unit of the residual. */
-#include <math.h>
-#include <string.h>
-
 #include "more_garbow_hillstrom.h"
 #include "nist_regression.h"
 #include "support.h"

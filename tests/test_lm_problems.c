@@ -1,9 +1,5 @@
 /* Levenberg-Marquardt on the least-squares problems of More, Garbow and Hillstrom: what is found is judged by the printed minima
  * and by objective and gradient recomputed at the point that came back, not by the status. */
-#include <math.h>
-#include <stdint.h>
-#include <string.h>
-
 #include "more_garbow_hillstrom.h"
 #include "support.h"
 

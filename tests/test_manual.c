@@ -1,8 +1,6 @@
 /* What the program offers beside what the manual page and the completions of the shells say of it. With --write (make tables):
  * writes what the tables of options and cards give. */
 #include <ctype.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "cli/cli.h"
 #include "deck/deck_row.h"

@@ -1,10 +1,5 @@
 /* From universal files to transfer functions: units, what belongs together, what is left out, and the modes that go back out. The
  * files are written here from closed forms. */
-#include <complex.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "import/import.h"

@@ -1,7 +1,4 @@
 /* Where nodes come to lie, and how rods and bars hang on them. */
-#include <math.h>
-#include <string.h>
-
 #include "beam/beam.h"
 #include "support.h"
 

@@ -1,8 +1,4 @@
 /* Elements that a deck does not state: the mesh that is chosen beside exact dynamic stiffness. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "deck/deck.h"
 #include "exact.h"
 #include "folder.h"

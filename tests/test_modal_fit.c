@@ -1,10 +1,4 @@
 /* The modal model on a choice of lines: sums of partial fractions against the columns themselves, derivatives by the poles. */
-#include <complex.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/base.h"
 #include "ema/ema.h"
 #include "support.h"
 

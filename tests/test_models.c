@@ -1,6 +1,4 @@
 /* A rotor is discretised once in a run, and what is shared never shows. */
-#include <string.h>
-
 #include "effect_bench.h"
 #include "linalg/linalg.h"
 #include "model/model.h"

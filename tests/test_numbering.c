@@ -1,9 +1,6 @@
 /* From which mode measured ones are counted, and numbers that are wrong. */
 #include "support.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "fit/fit.h"
 #include "folder.h"
 #include "reading.h"

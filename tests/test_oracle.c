@@ -1,14 +1,4 @@
 /* The oracle against closed forms, limits, energies and finite elements that bound it from above. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
-
 #include "../tools/oracle/oracle.h"
 #include "support.h"
 

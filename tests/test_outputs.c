@@ -1,9 +1,5 @@
 /* Where outputs go: not over what is read, not in the place of a link to a descriptor, not into a file that has the number of a
  * closed standard stream. Decks that name more than a rotor has end with a message. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "json_value.h"
 #include "shell.h"
 #include "support.h"

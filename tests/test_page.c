@@ -1,13 +1,7 @@
 /* `rotid report` end to end: what stands on a page are the numbers of the result, in text and in its data; whose files it writes;
  * causes by name, no folders before the last section; the gravest answer of several results first. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include <cJSON.h>
 
-#include "base/base.h"
 #include "json_value.h"
 #include "page_bench.h"
 #include "support.h"

@@ -1,9 +1,5 @@
 /* Pages in a browser: every figure of every kind of result is drawn, the console stays silent, every button does what it says,
  * nothing is wider than a phone, a print has the tables open, and without the script the page reads as well. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "page_bench.h"
 #include "support.h"
 

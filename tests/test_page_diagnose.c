@@ -1,9 +1,4 @@
 /* Pages of diagnoses: for every kind of verdict the page says what the result holds, with numbers that are computed here anew. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include <cJSON.h>
 
 #include "hidden.h"

@@ -1,8 +1,5 @@
 /* What `rotid report` makes of files that are no result, or a broken one: the place and what was expected, and no folder. */
 #include <errno.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include <cJSON.h>
 

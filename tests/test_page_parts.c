@@ -1,9 +1,4 @@
 /* The parts of a page: numbers for people, texts, one table shown in three ways, words in place of ids. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "page/page.h"
 #include "page_bench.h"
 #include "report/report.h"

@@ -1,9 +1,4 @@
 /* Pages of studies: what they count and draw is counted here anew, from the lines of the file of results. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include <cJSON.h>
 
 #include "json_value.h"

@@ -1,7 +1,4 @@
 /* The paper's rotor identified from the paper's measured frequencies. */
-#include <math.h>
-#include <string.h>
-
 #include "fit/fit.h"
 #include "paper_fit.h"
 #include "support.h"

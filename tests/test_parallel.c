@@ -4,9 +4,6 @@
 
 #include <pthread.h>
 #include <stdatomic.h>
-#include <string.h>
-
-#include "base/base.h"
 
 #define MOST 1000
 

@@ -1,12 +1,7 @@
 /* Frequencies that each measured mode has at single sensors: the regression behind their mean, the card, the sets of a universal
  * file, and the deck that is written again. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
-#include "base/base.h"
 #include "deck/deck.h"
 #include "folder.h"
 #include "reading.h"

@@ -3,10 +3,6 @@
 #include "one_state.h"
 #include "support.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "deck/deck.h"

@@ -1,10 +1,6 @@
 /* The random stream against its published reference and the moments of what it draws. */
 #include "support.h"
 
-#include <math.h>
-
-#include "base/base.h"
-
 UNIT_TEST(the_stream_is_splitmix64)
 {
     /* first outputs of the authors' C code for the seed 1234567 */

@@ -3,8 +3,6 @@
 #include "paper_rotor.h"
 
 #include <cblas.h>
-#include <math.h>
-#include <string.h>
 
 #include "linalg/linalg.h"
 #include "model/model.h"

@@ -1,10 +1,5 @@
 /* What a host is told of an argument that cannot be: which one, its value, and what was expected; and what is refused at all, an
  * allocator without a function, a block that is not symmetric, a struct of another size. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/base.h"
 #include "header.h"
 #include "support.h"
 

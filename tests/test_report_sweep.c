@@ -1,13 +1,8 @@
 /* Hostile texts in every text of every kind of result that `rotid report` reads, in a page that a browser opens: nothing of them
  * runs, becomes markup or leads elsewhere, neither in the page as it is written nor in the document after its script. `make test`
  * makes one page of each kind; ROTID_SWEEP_PAYLOADS asks for as many texts as that. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include <cJSON.h>
 
-#include "base/base.h"
 #include "page/page.h"
 #include "page_bench.h"
 #include "study/study.h"

@@ -1,9 +1,4 @@
 /* Roots of polynomials and leading Cholesky systems, which the poles of all orders rest on. */
-#include <complex.h>
-#include <math.h>
-#include <string.h>
-
-#include "base/base.h"
 #include "ema/ema.h"
 #include "linalg/linalg.h"
 #include "support.h"

@@ -1,8 +1,5 @@
 /* The regression that weighs a moving accelerometer, by itself, over thousands of tests of a free beam of 6 kg. Whole diagnoses:
  * test_accelerometer.c. */
-#include <math.h>
-
-#include "base/base.h"
 #include "diagnose/diagnose.h"
 #include "support.h"
 

@@ -1,11 +1,6 @@
 /* The jobs themselves: spectrum, comparison, identification and sensitivity on jobs made in memory. */
 #include "support.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "base/base.h"
 #include "paper_rotor.h"
 #include "run/run.h"
 

@@ -1,10 +1,5 @@
 /* The machine in operation beside closed forms and beside the first-order form of the full model. */
-#include <complex.h>
 #include <lapacke.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "folder.h"
 #include "reading.h"

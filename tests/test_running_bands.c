@@ -1,8 +1,4 @@
 /* Bands of critical speeds where they have a closed form: W is a power of what is uncertain, which is log-normal. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "running_case.h"
 #include "support.h"
 

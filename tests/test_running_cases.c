@@ -1,10 +1,5 @@
 /* Whirl, damping, critical speeds and unbalance response beside printed values and those of an independent program: the tables of
  * tests/data/running, whose lines say where each figure comes from. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "folder.h"
 #include "running_case.h"
 #include "support.h"

@@ -1,9 +1,5 @@
 /* Measured critical speeds: bearings identified with the core, and held out, on machines that are solved by another route: the
  * differential equation of the shaft, in steps. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "api/api.h"
 #include "running_case.h"
 #include "support.h"

@@ -1,12 +1,6 @@
 /* What the search once missed: decks of tests/data/search, whose data another program made or whose truth was drawn (their
  * headings). */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "api_bench.h"
-#include "base/base.h"
 #include "diagnose/diagnose.h"
 #include "support.h"
 

@@ -1,6 +1,4 @@
 /* Cross sections against sums over holes and rods, limits of Cowper's coefficient and inversion. */
-#include <math.h>
-
 #include "beam/beam.h"
 #include "rotor/rotor.h"
 #include "support.h"

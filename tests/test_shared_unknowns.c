@@ -1,9 +1,5 @@
 /* One unknown of several groups. The same rotor with these groups as one, whose sections they are, has that unknown without being
  * told: fits, derivatives and decks have to agree. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "deck/deck.h"
 #include "derivative_check.h"
 #include "folder.h"

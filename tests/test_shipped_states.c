@@ -1,13 +1,8 @@
 /* The shipped decks of several states end to end, with the numbers that their headings state. */
 #include "support.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "deck/deck.h"
 #include "hidden.h"
-#include "rotid.h"
 
 #define STRIP  ROTID_SOURCE_DIR "/input/strip_states.inp"
 #define ROLLER ROTID_SOURCE_DIR "/input/roller_states.inp"

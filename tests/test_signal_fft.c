@@ -1,10 +1,6 @@
 /* The transform against its definition in double precision, Parseval's theorem, and lengths. */
 #include "support.h"
 
-#include <complex.h>
-#include <math.h>
-
-#include "base/base.h"
 #include "signal/signal.h"
 
 #define MOST 6000

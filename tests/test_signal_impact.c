@@ -1,9 +1,6 @@
 /* Which impacts are found and used, and that it does not matter how they are spread over records. */
 #include "support.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "signal/signal.h"
 #include "struck.h"
 

@@ -2,9 +2,6 @@
  * sampled, x_j = sum of recursions, so that its transfer function is exact and only the noise is left. */
 #include "support.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "signal/signal.h"
 #include "struck.h"
 

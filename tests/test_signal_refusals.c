@@ -1,9 +1,6 @@
 /* What transfer_compute refuses, with the record at fault; memory that runs out; any number of threads; lines without force. */
 #include "support.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "signal/signal.h"
 #include "struck.h"
 

@@ -3,8 +3,6 @@
  */
 #include "support.h"
 
-#include <math.h>
-
 #include "struck.h"
 
 static const struct struck_mode single[] = {{50, 0.02, 0.5}};

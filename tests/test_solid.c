@@ -1,7 +1,4 @@
 /* The rotor as a solid of revolution: rigid motions and mass in closed form, patch tests, derivatives by differences. */
-#include <math.h>
-#include <string.h>
-
 #include "dense.h"
 #include "linalg/linalg.h"
 #include "solid/solid.h"

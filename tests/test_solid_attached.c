@@ -1,7 +1,4 @@
 /* What is attached to a solid beside the same on a beam, on rotors so slender that both agree; sensors; limits of the mesh. */
-#include <math.h>
-#include <string.h>
-
 #include "exact.h"
 #include "linalg/linalg.h"
 #include "solid/solid.h"

@@ -1,7 +1,5 @@
 /* Frequencies of solids of revolution: references of an independent program, an exact three-dimensional solution, exact beams
  * where they are slender, and orders of convergence. */
-#include <math.h>
-
 #include "exact.h"
 #include "linalg/linalg.h"
 #include "run/run.h"

@@ -3,9 +3,6 @@
 #include "reading.h"
 #include "support.h"
 
-#include <math.h>
-#include <string.h>
-
 #define SHAFT                                                                                                                    \
     "*MATERIAL, NAME=steel\n*ELASTIC, TYPE=SHEAR\n2.1e11, 8e10, 0.3\n*DENSITY\n7850\n"                                           \
     "*SHAFT, NAME=bar, MATERIAL=steel\n0.6, 0.05, 0, 24\n0.4, 0.06, 0, 16\n*SENSORS\n1, 0\n2, 0.5\n3, end\n"                     \

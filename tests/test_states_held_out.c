@@ -3,13 +3,9 @@
  * with a mistake in the model of a common part it is not. */
 #include "support.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "exact.h"
 #include "folder.h"
 #include "reading.h"
-#include "rotid.h"
 
 #define E_TRUE 1.9e11
 #define ROTOR                                                                                                                    \

@@ -1,9 +1,6 @@
 /* What a beam gets wrong at a step of the diameter: the figure that `check` and `identify` print, beside the solid itself. */
 #include "support.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "folder.h"
 #include "reading.h"
 #include "run/run.h"

@@ -2,12 +2,8 @@
  * where they are alike their modes come in pairs of nearly one frequency. None of that ends a diagnosis. */
 #include "support.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <unistd.h>
 
-#include "base/base.h"
 #include "hidden.h"
 
 #define JOBS 2

@@ -1,10 +1,5 @@
 /* The data of a study: those of the model beside tools/hide, which makes them by other means; faults, noise, sensors, starts;
  * what runs of different cells have in common. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "diagnose/causes/causes.h"
 #include "hide/hide.h"
 #include "json_value.h"

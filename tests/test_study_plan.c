@@ -1,8 +1,4 @@
 /* Plans: what is wrong with them and where, how many runs they have, what their digest follows. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "study_bench.h"
 #include "support.h"
 

@@ -1,8 +1,5 @@
 /* rotid study as its users see it: the same results whatever the number of processes, whatever kills whom, whoever goes on. */
 #include <signal.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <time.h>

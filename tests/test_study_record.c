@@ -1,11 +1,7 @@
 /* The file of results: what is in it, what is refused, what a sudden end leaves, what happens when it cannot grow. */
 #include <errno.h>
 #include <fcntl.h>
-#include <math.h>
 #include <signal.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>

@@ -1,9 +1,4 @@
 /* Runs: the same whoever computes them, right where the truth is known, failed where they fail. */
-#include <math.h>
-#include <stdlib.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "json_value.h"
 #include "result/result.h"
 #include "study/study.h"

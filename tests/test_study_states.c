@@ -1,8 +1,4 @@
 /* Studies of decks with several states: what varies acts on the common part and noise on each state; a run fits all at once. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "json_value.h"
 #include "result/result.h"
 #include "run/run.h"

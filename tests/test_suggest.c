@@ -1,14 +1,9 @@
 /* What is expected of tests that nobody has made, beside what comes out when they are made: intervals beside closed forms and
  * identifications, detection limits beside diagnoses, places of sensors beside all choices there are, margins beside fits to
  * second states, simulated here and by tools/hide (exact dynamic stiffness, no code of the library). */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/base.h"
 #include "deck/deck.h"
 #include "diagnose/diagnose.h"
 #include "folder.h"

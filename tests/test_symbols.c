@@ -1,7 +1,4 @@
 /* The names that both libraries show, and what the rooms of the library call: nothing that a library has no business to. */
-#include <stdio.h>
-#include <string.h>
-
 #include "header.h"
 #include "shell.h"
 #include "support.h"

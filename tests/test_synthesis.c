@@ -1,7 +1,4 @@
 /* Modal superposition: against exact dynamic stiffness, closed forms of a free rotor, reciprocity and energy. */
-#include <math.h>
-#include <string.h>
-
 #include "exact_receptance.h"
 #include "model/model.h"
 #include "paper_rotor.h"

@@ -3,10 +3,6 @@
 #include "support.h"
 
 #include <cJSON.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "api/api.h"
 #include "report/report.h"

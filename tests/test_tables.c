@@ -1,9 +1,5 @@
 /* What a person sees: the tables of every command, judged by what they must say and by numbers that stand in two places. */
 #include <ctype.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "report/report.h"

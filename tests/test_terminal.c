@@ -1,16 +1,12 @@
 /* Texts of decks, universal files, results and arguments that would steer a terminal, through every command: what arrives on both
  * streams is text, and so is what goes into files. */
 #include <fcntl.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cJSON.h>
 
-#include "base/base.h"
 #include "report/report.h"
 #include "shell.h"
 #include "study/study.h"

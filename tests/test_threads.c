@@ -1,9 +1,6 @@
 /* The first two layers from several threads at once: the same numbers as one after the other, to the last bit. `make check-tsan`
  * runs it under the thread sanitizer. */
 #include <pthread.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "api_bench.h"

@@ -1,8 +1,5 @@
 /* Torsion and axial motion at rest: bars beside closed forms, exact dynamic stiffness and chains of rigid inertias, their
  * derivatives, and what a deck makes of them. */
-#include <math.h>
-#include <string.h>
-
 #include "deck/deck.h"
 #include "folder.h"
 #include "linalg/linalg.h"

@@ -1,13 +1,8 @@
 /* A host that traps every floating-point exception calls every routine, with what it usually has and with what it never should:
  * no call kills it, and traps, flags and rounding are its own behind each. */
 #define _GNU_SOURCE /* feenableexcept */
-#include <fenv.h>
 #include <float.h>
-#include <math.h>
 #include <signal.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>

@@ -1,10 +1,6 @@
 /* docs/tutorial.md: its commands are run in their order, what they print is what stands there, and every number of its text is
  * one of what is typed or printed. README.md and the tutorial ask for no step that is not there. */
 #include <ctype.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "shell.h"
 #include "support.h"

@@ -1,16 +1,6 @@
 /* Universal files: every trap of the format as a small file of our own, and files that pyuff wrote. */
 #define _POSIX_C_SOURCE 200809L /* mkstemp */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 #include "support.h"
 #include "uff/uff.h"

@@ -1,6 +1,4 @@
 /* Set 55: data at nodes. */
-#include <stdio.h>
-
 #include "support.h"
 #include "uff/uff.h"
 #include "uff_fixture.h"

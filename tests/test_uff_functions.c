@@ -1,8 +1,4 @@
 /* Sets 58 and 58b: every kind of value in every layout, in pieces of any length, and what writers make of the format. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "support.h"
 #include "uff_fixture.h"
 

@@ -1,9 +1,4 @@
 /* The numbers of universal files: to the last bit what strtod makes of them. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "support.h"
 #include "uff/uff.h"
 

@@ -1,7 +1,4 @@
 /* The reader of universal files over a whole file: the order of sets, what is wrong and where to go on, memory, pipes. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "support.h"

@@ -1,8 +1,4 @@
 /* What is written is read again: every struct through a file. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "support.h"

@@ -1,7 +1,4 @@
 /* Sets 151 and 164: what a test is about, its units; records of mixed contents that are wrong. */
-#include <stdio.h>
-#include <string.h>
-
 #include "support.h"
 #include "uff_fixture.h"
 

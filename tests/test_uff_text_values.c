@@ -1,7 +1,4 @@
 /* The values of a set 58 as text: how writers write them, and what is refused. */
-#include <stdio.h>
-#include <string.h>
-
 #include "support.h"
 #include "uff_fixture.h"
 

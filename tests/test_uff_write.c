@@ -1,9 +1,4 @@
 /* The lines of the writers against lines made by hand from the formats of the sets. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "support.h"
 #include "uff/uff.h"
 

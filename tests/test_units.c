@@ -1,8 +1,4 @@
 /* Units of decks: numbers in another unit are noticed and said, *UNITS converts them, and right decks get no such warning. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "deck/deck.h"
 #include "folder.h"
 #include "reading.h"

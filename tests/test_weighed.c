@@ -1,11 +1,6 @@
 /* What a rotor weighs, and where its centre of mass is, beside its modes (*WEIGHT, *CENTRE): the card, the fit, and a diagnosis
  * of effects that tools/hide hides, which modes alone hardly tell apart. The rows of the residual: test_functional, test_columns.
  */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "deck/deck.h"
 #include "diagnose/diagnose.h"
 #include "folder.h"

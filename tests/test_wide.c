@@ -2,9 +2,6 @@
 #include "dense.h"
 #include "either_band.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "linalg/linalg.h"
 #include "modal/modal.h"
 #include "support.h"

@@ -1,8 +1,5 @@
 /* The worked cases of docs/diagnosis_reference.md: their commands are run, and every line that is printed there is one that they
  * print, in that order. */
-#include <stdlib.h>
-#include <string.h>
-
 #include "folder.h"
 #include "shell.h"
 #include "support.h"

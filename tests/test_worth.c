@@ -1,8 +1,4 @@
 /* Which test at rest narrows a critical speed: a shaft on pins, whose speeds and frequencies go with the root of E. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "api/api.h"
 #include "support.h"
 

@@ -1,8 +1,5 @@
 #include "uff_fixture.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 void uff_write_bytes(char path[512], const void *bytes, size_t length)

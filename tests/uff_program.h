@@ -2,9 +2,6 @@
 #ifndef ROTID_TESTS_UFF_PROGRAM_H
 #define ROTID_TESTS_UFF_PROGRAM_H
 
-#include <stddef.h>
-#include <stdio.h>
-
 #include "uff/uff.h"
 
 #define UFF_OUTPUT_LIMIT 65536
