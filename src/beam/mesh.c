@@ -195,8 +195,7 @@ int mesh_build(struct pool *pool, const struct rotor *rotor, int refine, struct 
     mesh->spring_node = POOL_ARRAY(pool, int, rotor->nspring);
     mesh->disk_node = POOL_ARRAY(pool, int, rotor->ndisk);
     mesh->sensor_node = POOL_ARRAY(pool, int, rotor->nsensor);
-    if (!b.z || !b.segment || !place || !mesh->z || !mesh->segment || !mesh->far || !mesh->tierod || !mesh->bars ||
-        !mesh->spring_node || !mesh->disk_node || !mesh->sensor_node)
+    if (pool->out_of_memory)
         return ROTID_ERROR_MEMORY;
     lay_segments(rotor, &b);
     for (int i = 0, count = gather_places(rotor, b.z[b.count - 1] / 2, place); i < count; i++)

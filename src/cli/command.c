@@ -42,19 +42,10 @@ int command_fail(struct command *command, int status)
     command_print_messages(command);
     if (!command->messages.errors)
         terminal_say("rotid: %s: %s\n", command->deck ? command->deck : command->file[0], rotid_status_text(status));
-    switch (status) { /* what the input causes, and what it does not */
-    case ROTID_ERROR_SYNTAX:
-    case ROTID_ERROR_SECTION:
-    case ROTID_ERROR_ARGUMENT:
-    case ROTID_ERROR_IO:
-    case ROTID_ERROR_UNPAIRED:
-    case ROTID_ERROR_STIFFNESS:
-    case ROTID_ERROR_SLAVE:
-    case ROTID_ERROR_MASS:
-        return EXIT_USAGE;
-    default:
-        return EXIT_INTERNAL;
-    }
+    int of_input = status == ROTID_ERROR_SYNTAX || status == ROTID_ERROR_SECTION || status == ROTID_ERROR_ARGUMENT ||
+                   status == ROTID_ERROR_IO || status == ROTID_ERROR_UNPAIRED || status == ROTID_ERROR_STIFFNESS ||
+                   status == ROTID_ERROR_SLAVE || status == ROTID_ERROR_MASS;
+    return of_input ? EXIT_USAGE : EXIT_INTERNAL;
 }
 
 int command_fail_with(struct command *command, int status, const char *failure)

@@ -2,7 +2,6 @@
 #ifdef __linux__
 #include <malloc.h>
 #endif
-#include <string.h>
 
 #include "cli/cli.h"
 

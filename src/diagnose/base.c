@@ -314,10 +314,10 @@ static int is_judgeable(struct engine *engine)
 {
     if (engine->fit->dof >= 1)
         return ROTID_OK;
-    message_add(engine->notes, SEVERITY_ERROR, engine->job->deck, 1, 1,
-                "%d residuals for %d parameters leave no degree of freedom to test the model, expected more modes or shapes",
-                engine->fit->nresidual, engine->fit->n);
-    return ROTID_ERROR_ARGUMENT;
+    return message_refuse(
+        engine->notes, ROTID_ERROR_ARGUMENT, engine->job->deck, 1, 1,
+        "%d residuals for %d parameters leave no degree of freedom to test the model, expected more modes or shapes",
+        engine->fit->nresidual, engine->fit->n);
 }
 
 /* Base fit and a mesh fine enough: what the rounds start from. */

@@ -129,15 +129,13 @@ int columns_prepare(struct columns *c, const struct columns *like)
            *m_phi = POOL_ARRAY(pool, double, CLUSTER_MOST *(size_t)n),
            *unit = POOL_ARRAY(pool, double, 2 * (size_t)n * (size_t)most);
     c->dphi = POOL_ARRAY(pool, double, most);
-    if (!c->dphi || !vectors || !zero || !m_phi || !unit)
+    c->phi = POOL_ARRAY(pool, double, images);
+    if (!c->dphi || !c->phi || !vectors || !zero || !m_phi || !unit)
         return ROTID_ERROR_MEMORY;
     c->dk_phi = vectors;
     c->dm_phi = vectors + images;
     c->rows = vectors + 2 * images;
     c->right = vectors + 3 * images;
-    c->phi = POOL_ARRAY(pool, double, images);
-    if (!c->phi)
-        return ROTID_ERROR_MEMORY;
     for (int i = 0; i < c->nmode; i++)
         memcpy(c->phi + (ptrdiff_t)i * n, c->functional.prediction.phi + (ptrdiff_t)c->mode[i].pair * n,
                (size_t)n * sizeof *c->phi);

@@ -198,12 +198,10 @@ static void judge_amount(struct engine *engine, int fitted)
 static int prepare_state(struct engine *engine)
 {
     struct job *job = engine->job;
-    if (!job->measurement.nmode) {
-        message_add(engine->notes, SEVERITY_ERROR, job->deck, 1, 1,
-                    "the deck has no measured modes%s%s, expected *MODES or *MEASURED", engine->state ? " in state " : "",
-                    engine->state ? engine->state : "");
-        return ROTID_ERROR_ARGUMENT;
-    }
+    if (!job->measurement.nmode)
+        return message_refuse(engine->notes, ROTID_ERROR_ARGUMENT, job->deck, 1, 1,
+                              "the deck has no measured modes%s%s, expected *MODES or *MEASURED",
+                              engine->state ? " in state " : "", engine->state ? engine->state : "");
     int known = job_knows_frequency_noise(job), status = data_copy(engine->pool, job);
     if (status)
         return status;
@@ -235,14 +233,12 @@ int data_prepare(struct engine *engine, const struct states *states)
         shapes |= job_fits_shapes(engine->job);
     }
     engine_look_at(engine, 0);
-    if (!shapes && fitted <= nparameter) {
-        message_add(
-            engine->notes, SEVERITY_ERROR, engine->job->deck, 1, 1,
+    if (!shapes && fitted <= nparameter)
+        return message_refuse(
+            engine->notes, ROTID_ERROR_ARGUMENT, engine->job->deck, 1, 1,
             "%d %s for %d parameters leave no degree of freedom to test the model, expected more modes, or shapes with *NOISE, "
             "SHAPE=",
             fitted, fitted == 1 ? "frequency" : "frequencies", nparameter);
-        return ROTID_ERROR_ARGUMENT;
-    }
     judge_amount(engine, fitted);
     engine->nprepared = engine->out->result.ndata_findings;
     return ROTID_OK;

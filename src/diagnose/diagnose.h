@@ -325,7 +325,6 @@ int scan_pairs(struct pool *pool, const struct scan *scan, int most, struct scan
 
 /* A name for a CAUSE card that nothing in the rotor has: "joint", or "joint_2" where that is taken. NULL where memory is out. */
 const char *scan_free_name(struct pool *pool, const struct rotor *rotor, const char *id);
-const char *states_free_name(struct pool *pool, const struct states *states, const char *id); /* in none of these */
 
 /* Whether the candidate's columns are those of a field of stiffness or mass along the rotor: a zone or a mass anywhere, in all
  * states. */
@@ -445,9 +444,6 @@ int states_with_effect(struct pool *pool, const struct states *from, const doubl
 
 /* The same for the starts of all. */
 int states_started_at(struct pool *pool, const struct states *states, const double *x, struct states *to);
-
-/* The bounds and the start of unknown p of all for the states that have it. */
-void states_share_bounds(struct states *states, int p);
 
 /* *to := the states with the values that their effects have at x. */
 int states_at(struct pool *pool, const struct states *states, const double *x, struct states *to);

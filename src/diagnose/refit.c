@@ -123,7 +123,8 @@ static int map_unknowns(struct pool *pool, int added, int nparameter, struct sta
     return ROTID_OK;
 }
 
-void states_share_bounds(struct states *states, int p)
+/* The bounds and the start of unknown p of all for the states that have it. */
+static void states_share_bounds(struct states *states, int p)
 {
     for (int s = 0; s < states->nstate; s++)
         for (int q = 0; q < states->state[s].job.unknowns.nparameter; q++)

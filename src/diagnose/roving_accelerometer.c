@@ -37,12 +37,11 @@ static int open_work(struct pool *pool, const struct roving_data *data, struct w
     *w = (struct work){.data = data};
     double **arrays[] = {&w->log_hz, &w->std, &w->linear, &w->column[MASS], &w->column[DRIFT]};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
-        if (!(*arrays[i] = POOL_ARRAY(pool, double, count)))
-            return ROTID_ERROR_MEMORY;
+        *arrays[i] = POOL_ARRAY(pool, double, count);
     w->use = POOL_ARRAY(pool, char, count);
     w->kept = POOL_ARRAY(pool, char, count);
     w->mean = POOL_ARRAY(pool, double, 4 * (size_t)data->nmode);
-    if (!w->use || !w->kept || !w->mean)
+    if (pool->out_of_memory)
         return ROTID_ERROR_MEMORY;
     double largest = 0;
     for (ptrdiff_t i = 0; i < (ptrdiff_t)count; i++) {

@@ -80,19 +80,20 @@ static int name_is_taken_in_any(const struct states *states, const char *name)
     return taken;
 }
 
-const char *scan_free_name(struct pool *pool, const struct rotor *rotor, const char *id)
-{
-    struct state state = {.job.rotor = *rotor};
-    const struct states states = {.nstate = 1, .state = &state};
-    return states_free_name(pool, &states, id);
-}
-
-const char *states_free_name(struct pool *pool, const struct states *states, const char *id)
+/* The same that nothing in any of the states has. */
+static const char *states_free_name(struct pool *pool, const struct states *states, const char *id)
 {
     const char *name = id;
     for (int i = 2; name && name_is_taken_in_any(states, name); i++)
         name = pool_format(pool, "%s_%d", id, i);
     return name;
+}
+
+const char *scan_free_name(struct pool *pool, const struct rotor *rotor, const char *id)
+{
+    struct state state = {.job.rotor = *rotor};
+    const struct states states = {.nstate = 1, .state = &state};
+    return states_free_name(pool, &states, id);
 }
 
 /* The targets of a cause in one state. */

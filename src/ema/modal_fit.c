@@ -298,11 +298,7 @@ int modal_fit_new(struct pool *pool, const struct ema_band *band, int nline, con
     fit->spread = POOL_ARRAY(pool, double, (size_t)q *(size_t)q *channels);
     fit->singular = POOL_ARRAY(pool, int, nchannel);
     fit->work = POOL_ARRAY(pool, double *, workers);
-    if (is_summed(fit) && modal_gram_new(pool, nline, nmode, &fit->summed) != ROTID_OK)
-        return ROTID_ERROR_MEMORY;
-    if (!fit->nu || !fit->y || !fit->yy || (band->variance && !fit->weight) || !fit->sigma || !fit->pole || !fit->held ||
-        !fit->loose || !fit->basis || !fit->gram || !fit->right || !fit->linear || !fit->chi2 || !fit->schur || !fit->score ||
-        !fit->mix || !fit->spread || !fit->singular || !fit->work)
+    if ((is_summed(fit) && modal_gram_new(pool, nline, nmode, &fit->summed)) || pool->out_of_memory)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < workers; i++)
         if (!(fit->work[i] = POOL_ARRAY(pool, double, workspace(fit))))

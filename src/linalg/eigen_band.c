@@ -350,8 +350,7 @@ int eigen_band_new(struct pool *pool, const rotid_matrix *structure, int count, 
     e->shifts = POOL_ARRAY(pool, double, 3 * count);
     e->projected = POOL_ROOM(pool, double, (size_t)width *(size_t)width);
     e->work = POOL_ARRAY(pool, double, 2 * n > 34 * width ? 2 * n : 34 * width);
-    if (!e->all || !e->basis || !e->mass_basis || !e->ritz || !e->image || !e->value || !e->residual || !e->shifts ||
-        !e->projected || !e->work)
+    if (pool->out_of_memory)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < n; i++)
         e->all[i] = i;

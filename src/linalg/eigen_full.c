@@ -158,13 +158,6 @@ static void give(struct eigen_wide *e, double *lambda, double *phi)
     }
 }
 
-/* The next solution begins with phi [n * count], vectors near the lowest pairs, in any scale. */
-static void eigen_wide_begin(struct eigen_wide *e, const double *phi)
-{
-    memcpy(e->ritz, phi, (size_t)e->n * (size_t)e->count * sizeof *phi);
-    e->started = 1;
-}
-
 /* Of the vectors in ritz: their Rayleigh quotients, the sizes of the eigenvalues */
 static int choose_first_shift(struct eigen_wide *e)
 {
@@ -252,9 +245,10 @@ void eigen_full_within(struct eigen_full *e, double residual)
 
 void eigen_full_begin(struct eigen_full *e, const double *phi)
 {
-    if (e->wide)
-        eigen_wide_begin(&e->panels, phi);
-    else if (!e->dense)
+    if (e->wide) {
+        memcpy(e->panels.ritz, phi, (size_t)e->panels.n * (size_t)e->panels.count * sizeof *phi);
+        e->panels.started = 1;
+    } else if (!e->dense)
         eigen_band_begin(&e->band, phi);
 }
 

@@ -390,8 +390,7 @@ int factor_new(struct pool *pool, enum factor_kind kind, const rotid_matrix *str
     f->first = POOL_ARRAY(pool, int, outer);
     f->last = POOL_ARRAY(pool, int, outer);
     f->schur_pivot = POOL_ARRAY(pool, int, outer);
-    if (!f->position || !f->inner || !f->outer || !f->coupling || !f->x || !f->schur || !f->schur_work || !f->work || !f->same ||
-        !f->outer_work || !f->first || !f->last || !f->schur_pivot)
+    if (pool->out_of_memory)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < n; i++)
         f->same[i] = i;

@@ -23,9 +23,6 @@ int reduction_new(struct pool *pool, int kind, const rotid_matrix *structure, in
     r->c1 = POOL_ARRAY(pool, double, nc);
     r->c2 = POOL_ARRAY(pool, double, nc);
     r->c3 = POOL_ARRAY(pool, double, nc);
-    if (!r->slave || !r->nonzero || !r->t || !r->kc || !r->mc || !r->image || !r->u1 || !r->u2 || !r->u3 || !r->slaves ||
-        !r->c1 || !r->c2 || !r->c3)
-        return ROTID_ERROR_MEMORY;
     r->psi = r->t;
     r->kg = r->kc;
     r->mg = r->mc;
@@ -35,9 +32,9 @@ int reduction_new(struct pool *pool, int kind, const rotid_matrix *structure, in
         r->mg = POOL_ARRAY(pool, double, square);
         r->mg_factor = POOL_ARRAY(pool, double, square);
         r->w = POOL_ARRAY(pool, double, square);
-        if (!r->psi || !r->kg || !r->mg || !r->mg_factor || !r->w)
-            return ROTID_ERROR_MEMORY;
     }
+    if (pool->out_of_memory)
+        return ROTID_ERROR_MEMORY;
     for (int i = 0, c = 0, s = 0; i < n; i++) {
         if (c < nc && master[c] == i)
             c++;

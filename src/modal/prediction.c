@@ -162,8 +162,7 @@ int prediction_new(struct pool *pool, const rotid_model *model, int reduction, i
     p->work = POOL_ARRAY(pool, double, 6 * (size_t)model->n);
     p->turned = POOL_ARRAY(pool, int, p->count);
     p->here = POOL_ARRAY(pool, double, nparam);
-    if (!p->lambda || !p->phi || !p->dlambda || !p->dphi || !p->right || !p->constant || !p->m_phi || !p->kx || !p->mx ||
-        !p->below || !p->image || !p->x || !p->work || !p->turned || !p->here)
+    if (pool->out_of_memory)
         return ROTID_ERROR_MEMORY;
     int status = new_matrices(pool, model, p);
     if (!status)

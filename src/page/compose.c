@@ -491,7 +491,8 @@ static void compose_states(struct document *document, const struct result *resul
 {
     for (int s = 0; s < result_states(result); s++) {
         const struct result own = result_of_state(document->pool, result, s);
-        document->of = pool_text(document->pool, "%s%sstate %s", of ? of : "", of ? ", " : "", result_state_name(result, s));
+        const char *name = result->identify ? result->identify->states[s].name : result->states[s].name;
+        document->of = pool_text(document->pool, "%s%sstate %s", of ? of : "", of ? ", " : "", name);
         document->state = s;
         if (document->pool->out_of_memory) /* then the state has no result */
             break;

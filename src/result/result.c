@@ -146,11 +146,6 @@ int result_states(const struct result *result)
     return result->identify ? result->identify->nstates : result->nstates;
 }
 
-const char *result_state_name(const struct result *result, int s)
-{
-    return result->identify ? result->identify->states[s].name : result->states[s].name;
-}
-
 /* References go over the modes of all states. */
 static void take_references(struct pool *pool, struct result_head *head, int first)
 {

@@ -320,9 +320,8 @@ char *result_json(const struct result *result);
 int result_read(struct pool *pool, const char *file, struct message_list *messages, result_lines_reader *read_lines,
                 struct result *result);
 
-/* How many states a result is of, 0 where its deck is one; the name of one; what a command found of it, as if it stood alone. */
+/* How many states a result is of, 0 where its deck is one; what a command found of one, as if it stood alone. */
 int result_states(const struct result *result);
-const char *result_state_name(const struct result *result, int s);
 struct result result_of_state(struct pool *pool, const struct result *result, int s);
 
 /* The rotor of a result, the fit that it is about (its own, or the model that a diagnosis judged), the noise of its data; NULL

@@ -643,11 +643,9 @@ int suggest_states(struct pool *pool, const struct states *states, const rotid_s
     struct states mine;
     int begun = 0, status = states_copy(pool, states, &mine);
     *out = (struct suggestion){.result = {.noise = {.frequency = NAN, .shape = NAN}}};
-    if (!status && !states->nparameter && !states_modes(states, states->nstate)) {
-        message_add(notes, SEVERITY_ERROR, states->state->job.deck, 1, 1,
-                    "the deck has no *IDENTIFY, expected the parameters that a test is to determine");
-        return ROTID_ERROR_ARGUMENT;
-    }
+    if (!status && !states->nparameter && !states_modes(states, states->nstate))
+        return message_refuse(notes, ROTID_ERROR_ARGUMENT, states->state->job.deck, 1, 1,
+                              "the deck has no *IDENTIFY, expected the parameters that a test is to determine");
     for (; begun < states->nstate && !status; begun++) {
         struct job *job = &mine.state[begun].job;
         job->models = models_for_run(pool, job->models);
