@@ -61,8 +61,6 @@ static const char *sentence(struct engine *engine, const struct candidate *first
     struct pool *pool = engine->pool;
     const char *shapes = shapes_missing(job);
     const char *one = candidate_label(pool, first), *two = candidate_label(pool, second);
-    if (!one || !two)
-        return NULL;
     if (difference->apart < 1)
         return pool_format(pool, "%smore modes will not separate %s from %s; %s", shapes, one, two, first->cause->check);
     return pool_format(pool,

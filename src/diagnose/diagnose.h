@@ -381,8 +381,7 @@ struct engine {
 #define NUMERICAL_FINDINGS 2  /* of one state: its mesh, its condensation */
 #define MOST_STEPS         64 /* that the time is counted for */
 
-/* "density of core", "joint of core|right with density of core"; the user's own name where it is a suspect. NULL where memory is
- * out. */
+/* "density of core", "joint of core|right with density of core"; the user's own name where it is a suspect. */
 const char *candidate_label(struct pool *pool, const struct candidate *candidate);
 
 /* A candidate of which nothing is known yet: NaN where a number may be missing, refit -1. */

@@ -2,11 +2,9 @@
 
 const char *candidate_label(struct pool *pool, const struct candidate *c)
 {
-    const char *text = c->result.suspect ? pool_format(pool, "%s, a %s", c->effect.name, c->cause->id)
-                                         : pool_format(pool, "%s%s%s", c->cause->id, c->target[0] ? " of " : "", c->target);
-    if (text && c->state_name)
-        text = pool_format(pool, "%s in state %s", text, c->state_name);
-    return text;
+    const char *text = c->result.suspect ? pool_text(pool, "%s, a %s", c->effect.name, c->cause->id)
+                                         : pool_text(pool, "%s%s%s", c->cause->id, c->target[0] ? " of " : "", c->target);
+    return c->state_name ? pool_text(pool, "%s in state %s", text, c->state_name) : text;
 }
 
 struct candidate candidate_blank(const struct cause_kind *cause, const char *target)

@@ -569,17 +569,16 @@ static const char *describe(struct pool *pool, const struct candidate *fault)
     const int *sensor = fault->sensor;
     double value = fault->effect.value[0];
     if (!strcmp(id, "sensor_gain"))
-        return pool_format(pool, "sensor %d reads %.3g times what it should; its components are divided by that", sensor[0],
-                           value);
+        return pool_text(pool, "sensor %d reads %.3g times what it should; its components are divided by that", sensor[0], value);
     if (!strcmp(id, "sensor_sign"))
-        return pool_format(pool, "sensor %d has the wrong sign; it is turned", sensor[0]);
+        return pool_text(pool, "sensor %d has the wrong sign; it is turned", sensor[0]);
     if (!strcmp(id, "sensor_swap"))
-        return pool_format(pool, "sensors %d and %d are exchanged; they are put back", sensor[0], sensor[1]);
+        return pool_text(pool, "sensors %d and %d are exchanged; they are put back", sensor[0], sensor[1]);
     if (!strcmp(id, "sensor_position"))
-        return pool_format(pool, "sensor %d sits %.3g mm further %s than stated; it is moved", sensor[0], 1e3 * fabs(value),
-                           value > 0 ? "right" : "left");
-    return sensor[1] ? pool_format(pool, "sensor %d records what sensor %d records; it is left out", sensor[0], sensor[1])
-                     : pool_format(pool, "sensor %d is dead; it is left out", sensor[0]);
+        return pool_text(pool, "sensor %d sits %.3g mm further %s than stated; it is moved", sensor[0], 1e3 * fabs(value),
+                         value > 0 ? "right" : "left");
+    return sensor[1] ? pool_text(pool, "sensor %d records what sensor %d records; it is left out", sensor[0], sensor[1])
+                     : pool_text(pool, "sensor %d is dead; it is left out", sensor[0]);
 }
 
 static rotid_cause_value sized(const char *name, const char *unit, double value, double std)
@@ -594,10 +593,10 @@ static const char *describe_line(struct pool *pool, const struct candidate *faul
     const char *text =
         value[2] >= 0.5 ? "the positions of all sensors count from the other end" : "the positions of all sensors are off";
     if (!fault->fixed[1])
-        text = pool_format(pool, "%s, their distances are %.5g +- %.2g times the stated ones", text, value[1], fault->std[1]);
-    if (text && !fault->fixed[0])
-        text = pool_format(pool, "%s, their origin is off by %+.3g +- %.2g mm", text, 1e3 * value[0], 1e3 * fault->std[0]);
-    return text ? pool_format(pool, "%s; all of them are moved", text) : NULL;
+        text = pool_text(pool, "%s, their distances are %.5g +- %.2g times the stated ones", text, value[1], fault->std[1]);
+    if (!fault->fixed[0])
+        text = pool_text(pool, "%s, their origin is off by %+.3g +- %.2g mm", text, 1e3 * value[0], 1e3 * fault->std[0]);
+    return pool_text(pool, "%s; all of them are moved", text);
 }
 
 int fault_correct(struct engine *engine, const struct candidate *fault)
@@ -610,7 +609,7 @@ int fault_correct(struct engine *engine, const struct candidate *fault)
                                   .std = valued ? fault->std[0] : NAN,
                                   .chi2_drop = fault->result.chi2_drop,
                                   .text = line ? describe_line(engine->pool, fault) : describe(engine->pool, fault)};
-    if (!finding.sensors || !finding.text)
+    if (engine->pool->out_of_memory)
         return ROTID_ERROR_MEMORY;
     memcpy(finding.sensors, fault->sensor, sizeof fault->sensor);
     if (line) {

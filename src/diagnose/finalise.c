@@ -66,16 +66,14 @@ static const char *hidden_sentence(struct engine *engine, const rotid_fit_result
         while (p < engine->nown && strcmp(engine->states.bounds[p].name, hidden->parameter) != 0)
             p++;
         last = hidden->parameter;
-        if (!first || !text || p == engine->nown || p >= fit->n ||
-            !(fabs(hidden->shift) > (fit->ci_upper[p] - fit->ci_lower[p]) / 2))
+        if (!first || p == engine->nown || p >= fit->n || !(fabs(hidden->shift) > (fit->ci_upper[p] - fit->ci_lower[p]) / 2))
             continue;
-        text = pool_format(engine->pool, "%s%s%s by %s", text, *text ? ", " : "", hidden->parameter,
-                           linear_percent_text(100 * fabs(hidden->shift / fit->x[p]), figure));
+        text = pool_text(engine->pool, "%s%s%s by %s", text, *text ? ", " : "", hidden->parameter,
+                         linear_percent_text(100 * fabs(hidden->shift / fit->x[p]), figure));
     }
-    return !text || !*text
-               ? text
-               : pool_format(engine->pool,
-                             " A cause below its detection limit may be present: beyond the intervals it may move %s.", text);
+    return !*text ? ""
+                  : pool_text(engine->pool,
+                              " A cause below its detection limit may be present: beyond the intervals it may move %s.", text);
 }
 
 #define ALL_SHARES 0.99 /* of the explanations that are told */
@@ -118,30 +116,29 @@ static const char *describe(struct pool *pool, const struct job_units *units, co
     const char *text = candidate_label(pool, c);
     if (!cause->effect) { /* a rival that is no part of a model */
         const struct effect_parameter_name *name;
-        for (int p = 0; (name = correction_parameter(cause, p)) && text; p++)
-            text = pool_format(pool, "%s%s%s %s", text, p ? ", " : " (", name->name,
-                               job_value_text(pool, units, 3, c->effect.value[p], name->unit));
-        return text && cause->value.name ? pool_format(pool, "%s)", text) : text;
+        for (int p = 0; (name = correction_parameter(cause, p)); p++)
+            text = pool_text(pool, "%s%s%s %s", text, p ? ", " : " (", name->name,
+                             job_value_text(pool, units, 3, c->effect.value[p], name->unit));
+        return cause->value.name ? pool_text(pool, "%s)", text) : text;
     }
-    for (int p = 0; p < c->nparameter && text; p++) {
+    for (int p = 0; p < c->nparameter; p++) {
         const struct effect_parameter_name *parameter = &cause->effect->parameter[p];
-        text = pool_format(pool, "%s%s%s %s", text, p ? ", " : " (", parameter->name,
-                           job_value_text(pool, units, 3, c->effect.value[p], parameter->unit));
+        text = pool_text(pool, "%s%s%s %s", text, p ? ", " : " (", parameter->name,
+                         job_value_text(pool, units, 3, c->effect.value[p], parameter->unit));
     }
-    return c->nparameter && text ? pool_format(pool, "%s)", text) : text;
+    return c->nparameter ? pool_text(pool, "%s)", text) : text;
 }
 
 static const char *list(struct pool *pool, const struct job_units *units, int count, const struct candidate *c)
 {
     const char *text = "";
     int shown = count < LISTED ? count : LISTED;
-    for (int i = 0; i < shown && text; i++) {
-        const char *one = describe(pool, units, &c[i]);
+    for (int i = 0; i < shown; i++) {
         int paired = i && c[i].set && c[i].set == c[i - 1].set,
             ends = i + 1 == count || (c[i].set && c[i].set == c[count - 1].set);
-        text = one ? pool_format(pool, "%s%s%s", text, !i ? "" : paired ? " with " : ends ? " and " : ", ", one) : NULL;
+        text = pool_text(pool, "%s%s%s", text, !i ? "" : paired ? " with " : ends ? " and " : ", ", describe(pool, units, &c[i]));
     }
-    return text && count > shown ? pool_format(pool, "%s and %d more", text, count - shown) : text;
+    return count > shown ? pool_text(pool, "%s and %d more", text, count - shown) : text;
 }
 
 /* "joint of core|right (flexibility 4e-10 rad/(N.m)) (72 %), nothing (8 %) and 3 more": explanations by their probability. */
@@ -153,21 +150,18 @@ static const char *shares(struct pool *pool, const struct job_units *units, cons
     while (count < p->count && sum < ALL_SHARES)
         sum += p->item[count++].probability;
     int shown = count < LISTED ? count : LISTED;
-    for (int i = 0; i < shown && text; i++) {
+    for (int i = 0; i < shown; i++) {
         const struct explanation *e = &p->item[i];
         const char *one = e->nmember ? "" : e->something_else ? "something outside of the catalogue" : "nothing";
-        for (int m = 0; m < e->nmember && one; m++) {
-            const char *own = describe(pool, units, &e->member[m]);
-            one = own ? pool_format(pool, "%s%s%s", one, m ? " with " : "", own) : NULL;
-        }
-        text = one ? pool_format(pool, e->probability > 0.1 ? "%s%s%s%s (%.0f %%)" : "%s%s%s%s (%.2g %%)", text,
-                                 !i               ? ""
-                                 : i + 1 == count ? " and "
-                                                  : ", ",
-                                 one, e->nmember && e->something_else ? " and something else" : "", 100 * e->probability)
-                   : NULL;
+        for (int m = 0; m < e->nmember; m++)
+            one = pool_text(pool, "%s%s%s", one, m ? " with " : "", describe(pool, units, &e->member[m]));
+        text = pool_text(pool, e->probability > 0.1 ? "%s%s%s%s (%.0f %%)" : "%s%s%s%s (%.2g %%)", text,
+                         !i               ? ""
+                         : i + 1 == count ? " and "
+                                          : ", ",
+                         one, e->nmember && e->something_else ? " and something else" : "", 100 * e->probability);
     }
-    return text && count > shown ? pool_format(pool, "%s and %d more", text, count - shown) : text;
+    return count > shown ? pool_text(pool, "%s and %d more", text, count - shown) : text;
 }
 
 /* The parameter that moves most with p, -1 where none does by more than SEPARATE. */
@@ -192,30 +186,26 @@ static const char *open_parameters(struct engine *engine)
     const char *text =
         fit->converged || fit->status == ROTID_STOP_CANCELLED
             ? ""
-            : pool_format(engine->pool, " The fit ended before a minimum (%s): values and intervals are those of its last point.",
-                          rotid_status_text(fit->status));
-    for (int p = 0; p < fit->n && p < out->judged.nparameter && text; p++) {
+            : pool_text(engine->pool, " The fit ended before a minimum (%s): values and intervals are those of its last point.",
+                        rotid_status_text(fit->status));
+    for (int p = 0; p < fit->n && p < out->judged.nparameter; p++) {
         if (fit->at_bound[p] && out->base.fit->at_bound[p] && out->result.verdict.kind != ROTID_ADEQUATE)
-            text = pool_format(engine->pool, "%s %s ends at its %s bound %s, which may be the cause itself: widen it.", text,
-                               parameter[p].name, base_bound_side(engine, p),
-                               job_value_text(engine->pool, units, 4, out->base.fit->x[p], parameter[p].unit));
-        if (!text)
-            break;
+            text = pool_text(engine->pool, "%s %s ends at its %s bound %s, which may be the cause itself: widen it.", text,
+                             parameter[p].name, base_bound_side(engine, p),
+                             job_value_text(engine->pool, units, 4, out->base.fit->x[p], parameter[p].unit));
         double half = interval_half_percent(fit->x[p], fit->ci_lower[p], fit->ci_upper[p]);
         int determined = fit->identifiable[p], partner = partner_of(fit, p);
         if (!isfinite(half) || (determined && !interval_is_wide(fit->x[p], fit->ci_lower[p], fit->ci_upper[p])))
             continue; /* no interval: it lies at a bound */
         char figure[32];
-        const char *how = determined ? pool_format(engine->pool, "determine %s to %s only%s", parameter[p].name,
-                                                   percent_text(half, figure), partner < 0 ? "" : ", and not separately from ")
-                                     : pool_format(engine->pool, "do not determine %s%s", parameter[p].name,
-                                                   partner < 0 ? "" : " separately from ");
-        text = how ? pool_format(
-                         engine->pool, "%s The data %s%s: its 95 %% interval is %s to %s.", text, how,
+        const char *how = determined ? pool_text(engine->pool, "determine %s to %s only%s", parameter[p].name,
+                                                 percent_text(half, figure), partner < 0 ? "" : ", and not separately from ")
+                                     : pool_text(engine->pool, "do not determine %s%s", parameter[p].name,
+                                                 partner < 0 ? "" : " separately from ");
+        text = pool_text(engine->pool, "%s The data %s%s: its 95 %% interval is %s to %s.", text, how,
                          partner < 0 ? "" : parameter[partner].name,
                          job_value_text(engine->pool, units, 3, fmax(fit->ci_lower[p], parameter[p].lower), parameter[p].unit),
-                         job_value_text(engine->pool, units, 3, fmin(fit->ci_upper[p], parameter[p].upper), parameter[p].unit))
-                   : NULL;
+                         job_value_text(engine->pool, units, 3, fmin(fit->ci_upper[p], parameter[p].upper), parameter[p].unit));
         out->result.verdict.undetermined_parameters += !determined;
     }
     return text;
@@ -238,25 +228,24 @@ static const char *change_sentence(const struct engine *engine, const char *caus
     switch (verdict->kind) {
     case ROTID_ADEQUATE:
         if (verdict->p_value < BLOCK_LEVEL)
-            return pool_format(
-                pool,
-                "Between %s and %s the data differ by %.2g times what the stated noise makes (%s), and no change of "
-                "the catalogue explains that: with %.0f %% nothing changed and the noise is larger than stated.%s",
-                from, to, scatter(engine), chance, 100 * engine->out->posterior.nothing, end);
-        return pool_format(pool, "Nothing changed between %s and %s that these data show (%s).%s", from, to, chance, end);
+            return pool_text(pool,
+                             "Between %s and %s the data differ by %.2g times what the stated noise makes (%s), and no change of "
+                             "the catalogue explains that: with %.0f %% nothing changed and the noise is larger than stated.%s",
+                             from, to, scatter(engine), chance, 100 * engine->out->posterior.nothing, end);
+        return pool_text(pool, "Nothing changed between %s and %s that these data show (%s).%s", from, to, chance, end);
     case ROTID_NAMED:
-        return pool_format(pool, "Between %s and %s changed: %s%s; %s (%s before).%s", from, to, causes, likely,
-                           verdict->adequate_after ? "with this the model explains the difference of the states within the noise"
-                                                   : "the rest still exceeds the noise",
-                           chance, end);
+        return pool_text(pool, "Between %s and %s changed: %s%s; %s (%s before).%s", from, to, causes, likely,
+                         verdict->adequate_after ? "with this the model explains the difference of the states within the noise"
+                                                 : "the rest still exceeds the noise",
+                         chance, end);
     case ROTID_AMBIGUOUS:
-        return pool_format(pool,
-                           "The data cannot tell what changed between %s and %s (%s): %s. The probability that nothing changed "
-                           "and chance did this is %s.%s",
-                           from, to, chance, others, text_of_probability(pool, 2, engine->out->posterior.nothing), end);
+        return pool_text(pool,
+                         "The data cannot tell what changed between %s and %s (%s): %s. The probability that nothing changed "
+                         "and chance did this is %s.%s",
+                         from, to, chance, others, text_of_probability(pool, 2, engine->out->posterior.nothing), end);
     default:
-        return pool_format(pool, "Something changed between %s and %s (%s), and with %.0f %% it is not in the catalogue: %s.%s",
-                           from, to, chance, 100 * verdict->something_else, others, end);
+        return pool_text(pool, "Something changed between %s and %s (%s), and with %.0f %% it is not in the catalogue: %s.%s",
+                         from, to, chance, 100 * verdict->something_else, others, end);
     }
 }
 
@@ -268,11 +257,11 @@ static const char *weigh_first(const struct engine *engine)
     const struct weighed *weighed = &engine->states.state[0].job.measurement.weighed;
     double mass = engine->out->base.mass.mass;
     if (!(weighed->mass_std > 0))
-        return pool_format(engine->pool, " Weigh the rotor first: the model has %.4g kg.", mass);
+        return pool_text(engine->pool, " Weigh the rotor first: the model has %.4g kg.", mass);
     if (fabs(mass - weighed->mass) > ANOTHER_MASS * weighed->mass_std)
-        return pool_format(engine->pool,
-                           " The model has %.4g kg and the rotor %.4g kg: correct diameters, bores and densities first.", mass,
-                           weighed->mass);
+        return pool_text(engine->pool,
+                         " The model has %.4g kg and the rotor %.4g kg: correct diameters, bores and densities first.", mass,
+                         weighed->mass);
     return "";
 }
 
@@ -284,58 +273,54 @@ static const char *verdict_sentence(struct engine *engine)
     const struct job_units *units = &engine->states.state[0].job.units;
     const char *causes = list(pool, units, out->ncause, out->cause), *others = shares(pool, units, &out->posterior),
                *likely = out->nlikely ? list(pool, units, out->nlikely, out->cause + out->ncause) : "";
-    if (likely && out->nlikely)
-        likely = pool_format(pool, ", and with %.0f %% %s", 100 * out->likely_probability, likely);
+    if (out->nlikely)
+        likely = pool_text(pool, ", and with %.0f %% %s", 100 * out->likely_probability, likely);
     int explained = verdict->kind == ROTID_ADEQUATE || verdict->adequate_after;
     const char *undetermined = open_parameters(engine), *faults = "", *solid = "",
                *worth = explained ? hidden_sentence(engine, out->extended.fit ? out->extended.fit : out->base.fit) : "",
-               *open = undetermined && worth ? pool_format(pool, "%s%s", undetermined, worth) : NULL;
+               *open = pool_text(pool, "%s%s", undetermined, worth);
     for (int c = 0; c < out->ncause; c++)
         if (out->cause[c].cause->solid)
             solid =
                 " The rotor is no beam: near its steps and in its short sections it bends as a beam cannot, so moduli that are "
                 "identified with the beam carry the error of beam theory. Identify with *FIT, MODEL=SOLID.";
-    for (int i = 0; i < out->result.ndata_findings && i < FAULTS_TOLD && faults; i++) {
+    for (int i = 0; i < out->result.ndata_findings && i < FAULTS_TOLD; i++) {
         const rotid_data_finding *found = &out->result.data_findings[i];
-        faults = pool_format(pool, "%s%s%s%s%s %s", faults, i ? ";" : " In the measurement", found->state ? " of state " : "",
-                             found->state ? found->state : "", found->state ? "," : "", found->text);
+        faults = pool_text(pool, "%s%s%s%s%s %s", faults, i ? ";" : " In the measurement", found->state ? " of state " : "",
+                           found->state ? found->state : "", found->state ? "," : "", found->text);
     }
-    if (out->result.ndata_findings && faults)
-        faults = pool_format(pool, out->result.ndata_findings > FAULTS_TOLD ? "%s; and %d more." : "%s.", faults,
-                             out->result.ndata_findings - FAULTS_TOLD);
-    const char *chance = pool_format(pool,
-                                     !isfinite(verdict->p_value) ? "no p-value can be stated"
-                                     : verdict->p_value < 1e-99  ? "p below 1e-99"
-                                                                 : "p = %.2g",
-                                     verdict->p_value);
+    if (out->result.ndata_findings)
+        faults = pool_text(pool, out->result.ndata_findings > FAULTS_TOLD ? "%s; and %d more." : "%s.", faults,
+                           out->result.ndata_findings - FAULTS_TOLD);
+    const char *chance = pool_text(pool,
+                                   !isfinite(verdict->p_value) ? "no p-value can be stated"
+                                   : verdict->p_value < 1e-99  ? "p below 1e-99"
+                                                               : "p = %.2g",
+                                   verdict->p_value);
     const char *weigh = weigh_first(engine);
-    if (!causes || !others || !likely || !open || !faults || !chance || !weigh)
-        return NULL;
-    if (engine->before) {
-        const char *end = pool_format(pool, "%s%s%s", solid, faults, open);
-        return end ? change_sentence(engine, causes, likely, others, chance, end) : NULL;
-    }
+    if (engine->before)
+        return change_sentence(engine, causes, likely, others, chance, pool_text(pool, "%s%s%s", solid, faults, open));
     switch (verdict->kind) {
     case ROTID_ADEQUATE:
         if (verdict->p_value < BLOCK_LEVEL)
-            return pool_format(pool,
-                               "Nothing is wrong with %.0f %%, more than with any cause, though the misfit is larger than the "
-                               "stated noise makes it (%s).%s%s",
-                               100 * out->posterior.nothing, chance, faults, open);
-        return pool_format(pool, "The model explains the data within their noise (%s).%s%s", chance, faults, open);
+            return pool_text(pool,
+                             "Nothing is wrong with %.0f %%, more than with any cause, though the misfit is larger than the "
+                             "stated noise makes it (%s).%s%s",
+                             100 * out->posterior.nothing, chance, faults, open);
+        return pool_text(pool, "The model explains the data within their noise (%s).%s%s", chance, faults, open);
     case ROTID_NAMED:
-        return pool_format(pool, "The model lacks %s%s; with %s %s (%s before).%s%s%s", causes, likely,
-                           out->ncause + out->nlikely > 1 ? "these causes" : "this cause",
-                           verdict->adequate_after ? "the model explains the data within their noise"
-                                                   : "the residual still exceeds the noise",
-                           chance, solid, faults, open);
+        return pool_text(pool, "The model lacks %s%s; with %s %s (%s before).%s%s%s", causes, likely,
+                         out->ncause + out->nlikely > 1 ? "these causes" : "this cause",
+                         verdict->adequate_after ? "the model explains the data within their noise"
+                                                 : "the residual still exceeds the noise",
+                         chance, solid, faults, open);
     case ROTID_AMBIGUOUS:
-        return pool_format(pool,
-                           "The data cannot tell what the model lacks (%s): %s. The probability that nothing is wrong and chance "
-                           "did this is %s.%s%s",
-                           chance, others, text_of_probability(pool, 2, engine->out->posterior.nothing), faults, open);
+        return pool_text(pool,
+                         "The data cannot tell what the model lacks (%s): %s. The probability that nothing is wrong and chance "
+                         "did this is %s.%s%s",
+                         chance, others, text_of_probability(pool, 2, engine->out->posterior.nothing), faults, open);
     default:
-        return pool_format(
+        return pool_text(
             pool, "The model does not explain the data (%s), and with %.0f %% what it lacks is not in the catalogue: %s.%s%s%s",
             chance, 100 * verdict->something_else, others, weigh, faults, open);
     }
@@ -489,5 +474,5 @@ int finalise(struct engine *engine)
     if (status)
         return status;
     out->result.verdict.sentence = verdict_sentence(engine);
-    return out->result.verdict.sentence ? ROTID_OK : ROTID_ERROR_MEMORY;
+    return engine->pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
 }

@@ -648,17 +648,14 @@ static const char *range_text(struct pool *pool, int count, int *number)
     const char *text = "";
     int ranges = 0;
     sort_ints((size_t)count, number);
-    for (int i = 0; i < count && text;) {
+    for (int i = 0; i < count;) {
         int last = i;
         while (last + 1 < count && number[last + 1] - number[last] <= 1)
             ++last;
         if (ranges++ == RANGES_SHOWN)
-            return pool_format(pool, "%s, ... up to %d", text, number[count - 1]);
+            return pool_text(pool, "%s, ... up to %d", text, number[count - 1]);
         const char *separator = i ? ", " : "";
-        if (number[last] == number[i])
-            text = pool_format(pool, "%s%s%d", text, separator, number[i]);
-        else
-            text = pool_format(pool, "%s%s%d to %d", text, separator, number[i], number[last]);
+        text = pool_text(pool, number[last] == number[i] ? "%s%s%d" : "%s%s%d to %d", text, separator, number[i], number[last]);
         i = last + 1;
     }
     return text;
@@ -677,24 +674,20 @@ static const char *describe_group(struct pool *pool, const struct listing *listi
         references |= f->function.reference_node != first->function.reference_node;
     }
     if (!first) /* memory is out: a group has a function */
-        return NULL;
+        return "";
     for (int i = 1; i < count; ++i)
         several |= response[i] != response[0];
     const struct uff_function *f = &first->function;
     const struct values *v = &first->values;
     const char *places = range_text(pool, count, response);
-    if (!places)
-        return NULL;
     int time = first->is_time;
     const char *unit = time ? "s" : f->abscissa.specific_type == 18 || !f->abscissa.specific_type ? "Hz" : f->abscissa.unit;
-    const char *rate = time && f->step > 0 && f->is_even ? pool_format(pool, " at %.6g Hz", first->rate_hz) : "";
-    const char *reference = f->reference_node && !references ? pool_format(pool, ", reference %d", f->reference_node) : "";
-    const char *responses = pool_format(pool, ", response%s %s", several ? "s" : "", places);
-    if (!rate || !reference || !responses)
-        return NULL;
-    return pool_format(pool, "%d %s, %lld %s%s%s, %.6g to %.6g %s%s%s", count, name_of_function(f->type, count > 1), f->count,
-                       time ? "samples" : "lines", count > 1 ? " each" : "", rate, v->x_first * first->x_si_factor,
-                       v->x_last * first->x_si_factor, unit, several || response[0] ? responses : "", reference);
+    const char *rate = time && f->step > 0 && f->is_even ? pool_text(pool, " at %.6g Hz", first->rate_hz) : "";
+    const char *reference = f->reference_node && !references ? pool_text(pool, ", reference %d", f->reference_node) : "";
+    const char *responses = pool_text(pool, ", response%s %s", several ? "s" : "", places);
+    return pool_text(pool, "%d %s, %lld %s%s%s, %.6g to %.6g %s%s%s", count, name_of_function(f->type, count > 1), f->count,
+                     time ? "samples" : "lines", count > 1 ? " each" : "", rate, v->x_first * first->x_si_factor,
+                     v->x_last * first->x_si_factor, unit, several || response[0] ? responses : "", reference);
 }
 
 static const char *describe_shapes(struct pool *pool, const struct listing *listing)
@@ -712,12 +705,11 @@ static const char *describe_shapes(struct pool *pool, const struct listing *list
     }
     const char *kind = !complex_count ? "real" : complex_count == count ? "complex" : "real and complex";
     const char *rest =
-        count < listing->shape_count ? pool_format(pool, ", %d more sets of data at nodes", listing->shape_count - count) : "";
+        count < listing->shape_count ? pool_text(pool, ", %d more sets of data at nodes", listing->shape_count - count) : "";
     if (!count)
-        return pool_format(pool, "%d sets of data at nodes, none of them a mode", listing->shape_count);
-    return rest ? pool_format(pool, "%d shape%s, %s, %.6g to %.6g Hz, %d point%s%s", count, count == 1 ? "" : "s", kind, least,
-                              most, points, points == 1 ? "" : "s", rest)
-                : NULL;
+        return pool_text(pool, "%d sets of data at nodes, none of them a mode", listing->shape_count);
+    return pool_text(pool, "%d shape%s, %s, %.6g to %.6g Hz, %d point%s%s", count, count == 1 ? "" : "s", kind, least, most,
+                     points, points == 1 ? "" : "s", rest);
 }
 
 static const char *describe_nodes(struct pool *pool, const struct listing *listing)
@@ -731,9 +723,9 @@ static const char *describe_nodes(struct pool *pool, const struct listing *listi
         }
     }
     double scale = listing->units && listing->units->length > 0 ? 1 / listing->units->length : 1;
-    return pool_format(pool, "%d node%s, x %.6g to %.6g, y %.6g to %.6g, z %.6g to %.6g m%s", listing->node_count,
-                       listing->node_count == 1 ? "" : "s", scale * least[0], scale * most[0], scale * least[1], scale * most[1],
-                       scale * least[2], scale * most[2], listing->units ? "" : ", if the file is in SI");
+    return pool_text(pool, "%d node%s, x %.6g to %.6g, y %.6g to %.6g, z %.6g to %.6g m%s", listing->node_count,
+                     listing->node_count == 1 ? "" : "s", scale * least[0], scale * most[0], scale * least[1], scale * most[1],
+                     scale * least[2], scale * most[2], listing->units ? "" : ", if the file is in SI");
 }
 
 int listing_summarise(struct pool *pool, const struct listing *listing, int *count, const char ***what)
@@ -750,9 +742,6 @@ int listing_summarise(struct pool *pool, const struct listing *listing, int *cou
         text[n++] = describe_shapes(pool, listing);
     if (listing->node_count)
         text[n++] = describe_nodes(pool, listing);
-    for (int i = 0; i < n; ++i)
-        if (!text[i])
-            return ROTID_ERROR_MEMORY;
     *count = n;
-    return ROTID_OK;
+    return pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
 }

@@ -181,8 +181,7 @@ const char *job_value_text(struct pool *pool, const struct job_units *units, int
         in_si = fabs(value) < 1e9 ? 1e6 : 1e9;
         unit = fabs(value) < 1e9 ? "MPa" : "GPa";
     }
-    const char *text = pool_format(pool, strcmp(unit, "1") ? "%.*g %s" : "%.*g", digits, value / in_si, unit);
-    return text ? text : "";
+    return pool_text(pool, strcmp(unit, "1") ? "%.*g %s" : "%.*g", digits, value / in_si, unit);
 }
 
 #define STEP_TOLD 0.01

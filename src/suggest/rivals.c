@@ -23,8 +23,6 @@ static const char *label_of(struct pool *pool, const struct job_units *units, co
     const char *text = candidate_label(pool, c), *second = e->nmember > 1 ? candidate_label(pool, c + 1) : "";
     int elsewhere = 0;
     double shown = 0;
-    if (!text || !second)
-        return NULL;
     if (e->nmember > 1)
         return pool_format(pool, "%s with %s", text, second);
     for (int i = 0; i < p->count && shown < SHARED; shown += p->item[i++].probability)

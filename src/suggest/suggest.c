@@ -398,13 +398,13 @@ static const char *needed(struct pool *pool, const rotid_suggestion *r)
     if (!r->nparameters)
         return "no interval can be planned: the deck has no *IDENTIFY";
     if (r->modes_needed != ROTID_NONE)
-        return pool_format(pool, "the frequencies of modes 1 to %d determine all parameters to %g %%", r->modes_needed,
-                           r->wanted_percent);
+        return pool_text(pool, "the frequencies of modes 1 to %d determine all parameters to %g %%", r->modes_needed,
+                         r->wanted_percent);
     if (r->sensors_needed != ROTID_NONE)
-        return pool_format(pool, "%d modes with shapes at the %d best points determine all parameters to %g %%", r->plan_modes,
-                           r->sensors_needed, r->wanted_percent);
-    return pool_format(pool, "no number of modes and sensors that was tried determines all parameters to %g %%: reduce the noise",
-                       r->wanted_percent);
+        return pool_text(pool, "%d modes with shapes at the %d best points determine all parameters to %g %%", r->plan_modes,
+                         r->sensors_needed, r->wanted_percent);
+    return pool_text(pool, "no number of modes and sensors that was tried determines all parameters to %g %%: reduce the noise",
+                     r->wanted_percent);
 }
 
 static const char *plan(struct pool *pool, const rotid_suggestion *r)
@@ -413,11 +413,10 @@ static const char *plan(struct pool *pool, const rotid_suggestion *r)
     for (int i = 0; i < r->nplans; i++)
         if (!best || r->plans[i].gain_percent > best->gain_percent)
             best = &r->plans[i];
-    const char *where = best ? pool_format(pool, " The plan \"%s\" is best for moduli and causes: shapes at its %d points.",
-                                           best->method, best->nz_m)
+    const char *where = best ? pool_text(pool, " The plan \"%s\" is best for moduli and causes: shapes at its %d points.",
+                                         best->method, best->nz_m)
                              : "";
-    const char *what = needed(pool, r);
-    return what && where ? pool_format(pool, "With this noise %s.%s", what, where) : NULL;
+    return pool_text(pool, "With this noise %s.%s", needed(pool, r), where);
 }
 
 static const char *tests(struct pool *pool, const struct suggestion *s)
@@ -431,21 +430,18 @@ static const char *tests(struct pool *pool, const struct suggestion *s)
     const rotid_fit_result *fit = s->rivals.rival[0].fit;
     int doubtful = s->rivals.left_out || (fit->dof > 0 && chi_square_tail(fit->chi2, fit->dof) < JUDGED);
     const char *unless = doubtful ? "If one of these rivals is the true one: " : "Next: ";
-    const char *who = causes > 1 ? pool_format(pool, "the true one of the %d rivals", causes) : "the one cause that is left";
-    const char *instead = again ? pool_format(pool, "; the same test again: %.2f", r->tests[again].chance) : "";
-    if (!who || !instead)
-        return NULL;
+    const char *who = causes > 1 ? pool_text(pool, "the true one of the %d rivals", causes) : "the one cause that is left";
+    const char *instead = again ? pool_text(pool, "; the same test again: %.2f", r->tests[again].chance) : "";
     if (best->chance < LIKELY)
-        return pool_format(
+        return pool_text(
             pool,
             "%sno single test that was tried is likely to name %s; the best is %s, with a chance of %.2f at a cost of "
             "%.3g points%s.",
             unless, who, best->text, best->chance, best->cost, instead);
-    return pool_format(pool, "%smeasure %s: %s is then named with a chance of %.2f, at a cost of %.3g points%s.", unless,
-                       best->text, who, best->chance, best->cost, instead);
+    return pool_text(pool, "%smeasure %s: %s is then named with a chance of %.2f, at a cost of %.3g points%s.", unless,
+                     best->text, who, best->chance, best->cost, instead);
 }
 
-/* NULL where memory is out. */
 static const char *advice_sentence(struct pool *pool, const struct suggestion *s)
 {
     const rotid_suggestion *r = &s->result;
@@ -453,12 +449,11 @@ static const char *advice_sentence(struct pool *pool, const struct suggestion *s
         return plan(pool, r);
     if (r->ntests)
         return tests(pool, s);
-    const char *more = plan(pool, r);
     const char *open = s->rivals.left_out ? "No test of this kind distinguishes the explanations that are left"
                        : s->found.result.verdict.kind == ROTID_UNEXPLAINED
                            ? "No cause of the catalogue explains the data: there are no causes to distinguish by a test"
                            : "The diagnosis is settled: no cause is left to distinguish";
-    return more ? pool_format(pool, "%s. %s", open, more) : NULL;
+    return pool_text(pool, "%s. %s", open, plan(pool, r));
 }
 
 #define WANTED_PERCENT  2.0
@@ -633,7 +628,7 @@ static int run(struct pool *pool, const struct states *states, rotid_suggest_opt
     if (status)
         return status;
     r->sentence = advice_sentence(pool, out);
-    return r->sentence ? ROTID_OK : ROTID_ERROR_MEMORY;
+    return pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
 int suggest_states(struct pool *pool, const struct states *states, const rotid_suggest_options *options,
