@@ -112,21 +112,18 @@ static int quality(struct engine *engine, const struct states *states, const str
 /* "joint of core|right (flexibility 4e-10 rad/(N.m))" */
 static const char *describe(struct pool *pool, const struct job_units *units, const struct candidate *c)
 {
-    const struct cause_kind *cause = c->cause; /* `with` is NULL in what a verdict lists */
+    const struct cause_kind *cause = c->cause; /* `with` is NULL in what a verdict lists; without an effect: a rival that is no
+                                                  part of a model */
+    const struct effect_parameter_name *name;
     const char *text = candidate_label(pool, c);
-    if (!cause->effect) { /* a rival that is no part of a model */
-        const struct effect_parameter_name *name;
-        for (int p = 0; (name = correction_parameter(cause, p)); p++)
-            text = pool_text(pool, "%s%s%s %s", text, p ? ", " : " (", name->name,
-                             job_value_text(pool, units, 3, c->effect.value[p], name->unit));
-        return cause->value.name ? pool_text(pool, "%s)", text) : text;
-    }
-    for (int p = 0; p < c->nparameter; p++) {
-        const struct effect_parameter_name *parameter = &cause->effect->parameter[p];
-        text = pool_text(pool, "%s%s%s %s", text, p ? ", " : " (", parameter->name,
-                         job_value_text(pool, units, 3, c->effect.value[p], parameter->unit));
-    }
-    return c->nparameter ? pool_text(pool, "%s)", text) : text;
+    int p = 0;
+    for (; (name = !cause->effect      ? correction_parameter(cause, p)
+                   : p < c->nparameter ? &cause->effect->parameter[p]
+                                       : NULL);
+         p++)
+        text = pool_text(pool, "%s%s%s %s", text, p ? ", " : " (", name->name,
+                         job_value_text(pool, units, 3, c->effect.value[p], name->unit));
+    return p ? pool_text(pool, "%s)", text) : text;
 }
 
 static const char *list(struct pool *pool, const struct job_units *units, int count, const struct candidate *c)

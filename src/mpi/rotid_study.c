@@ -4,17 +4,10 @@
  * A rank has the next runs beside the one it computes, so that it need not wait for an answer. Rank 0 answers between its
  * own iterations. A rank that dies ends the whole job, as MPI has it; what arrived before stands in the file. */
 #include <errno.h>
-#include <math.h>
 #include <mpi.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
-#include "base/base.h"
 #include "cli/cli.h"
-#include "result/result.h"
-#include "study/study.h"
 
 #define AHEAD           2   /* runs of a rank */
 #define COMPUTING_RANKS 16  /* with more, rank 0 only writes and hands out */
