@@ -485,22 +485,13 @@ static int read_units(struct listing_work *job, const struct uff_set *set)
 
 static int read_set(struct listing_work *job, struct listing_set *set)
 {
-    switch (set->set.number) {
-    case 15:
-    case 781:
-    case 2411:
-        return read_nodes(job, set);
-    case 55:
-        return read_shape(job, set);
-    case 58:
-        return read_function(job, set);
-    case 151:
-        return read_header(job);
-    case 164:
-        return read_units(job, &set->set);
-    default:
-        return UFF_END; /* read over */
-    }
+    const int number = set->set.number;
+    return number == 15 || number == 781 || number == 2411 ? read_nodes(job, set)
+           : number == 55                                  ? read_shape(job, set)
+           : number == 58                                  ? read_function(job, set)
+           : number == 151                                 ? read_header(job)
+           : number == 164                                 ? read_units(job, &set->set)
+                                                           : UFF_END; /* read over */
 }
 
 static int read_sets(struct listing_work *job)

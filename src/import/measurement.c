@@ -188,19 +188,11 @@ static int read_set(struct growing *g, struct uff_reader *reader, const struct u
 {
     struct uff_node *node;
     int count, status;
-    switch (set->number) {
-    case 15:
-    case 781:
-    case 2411:
+    if (set->number == 15 || set->number == 781 || set->number == 2411) {
         status = uff_read_nodes(reader, g->scratch, &count, &node);
         return status ? status : add_nodes(g, set, count, node);
-    case 164:
-        return read_units(g, reader, set);
-    case 58:
-        return read_function(g, reader, set);
-    default:
-        return ROTID_OK;
     }
+    return set->number == 164 ? read_units(g, reader, set) : set->number == 58 ? read_function(g, reader, set) : ROTID_OK;
 }
 
 /* Reads over a file from its beginning. ROTID_OK or the statuses of uff_next and of the readers. */

@@ -202,9 +202,7 @@ const char *human_plural(int count, const char *one, const char *many)
 
 const char *human_seconds(struct pool *pool, double seconds)
 {
-    if (seconds < 1)
-        return pool_text(pool, "%s" NARROW_SPACE "ms", human_digits(pool, 1e3 * seconds, 2));
-    if (seconds < 120)
-        return pool_text(pool, "%s" NARROW_SPACE "s", human_digits(pool, seconds, 2));
-    return pool_text(pool, "%.0f" NARROW_SPACE "min", seconds / 60);
+    return seconds < 1     ? pool_text(pool, "%s" NARROW_SPACE "ms", human_digits(pool, 1e3 * seconds, 2))
+           : seconds < 120 ? pool_text(pool, "%s" NARROW_SPACE "s", human_digits(pool, seconds, 2))
+                           : pool_text(pool, "%.0f" NARROW_SPACE "min", seconds / 60);
 }

@@ -207,11 +207,9 @@ struct reasons reasons_of_fit(struct pool *pool, const struct result_head *head,
 /* "in fewer than 1 of 1,000": how often chance does it. */
 static const char *words_chance(struct pool *pool, double p)
 {
-    if (p < 0.001)
-        return "in fewer than 1 of 1,000";
-    if (p < 0.01)
-        return pool_text(pool, "in about %.0f of 1,000", 1000 * p);
-    return pool_text(pool, "in about %.0f of 100", 100 * p);
+    return p < 0.001  ? "in fewer than 1 of 1,000"
+           : p < 0.01 ? pool_text(pool, "in about %.0f of 1,000", 1000 * p)
+                      : pool_text(pool, "in about %.0f of 100", 100 * p);
 }
 
 /* How often chance does what was found, and what that rests on. */

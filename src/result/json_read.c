@@ -38,15 +38,12 @@ void place_wrong(const struct json_place *at, const char *format, ...)
 
 static const char *kind_of(const cJSON *json)
 {
-    if (cJSON_IsNumber(json))
-        return "a number";
-    if (cJSON_IsString(json))
-        return "a text";
-    if (cJSON_IsBool(json))
-        return "true or false";
-    if (cJSON_IsArray(json))
-        return "a list";
-    return cJSON_IsNull(json) ? "null" : "an object";
+    return cJSON_IsNumber(json)   ? "a number"
+           : cJSON_IsString(json) ? "a text"
+           : cJSON_IsBool(json)   ? "true or false"
+           : cJSON_IsArray(json)  ? "a list"
+           : cJSON_IsNull(json)   ? "null"
+                                  : "an object";
 }
 
 static int is_kind(const cJSON *json, enum place_kind kind)
