@@ -1,5 +1,4 @@
 #include "api/api.h"
-
 #include "fit/fit.h"
 
 static void fill_parameters(struct pool *pool, const rotid_parameter *list, const rotid_fit_result *fit,

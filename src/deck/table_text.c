@@ -1,5 +1,4 @@
 #include "deck/deck.h"
-
 #include "file/file.h"
 
 struct splitter {

@@ -1,7 +1,6 @@
 /* The accelerometer that goes from sensor to sensor, weighed by the frequencies at each of them, and put into the judged model.
  */
 #include "diagnose/diagnose.h"
-
 #include "fit/fit.h"
 
 #define ROOM   2.0

@@ -1,6 +1,5 @@
 /* The end of a diagnosis: the extended model fitted to the end, the gain on what was and was not fitted, and the verdict. */
 #include "diagnose/diagnose.h"
-
 #include "fit/fit.h"
 
 /* Parameter p of the final fit, which belongs to the cause: its interval, unless the round found out that the fit's own says too

@@ -1,5 +1,4 @@
 #include "diagnose/diagnose.h"
-
 #include "fit/fit.h"
 
 #define UNEXPLAINED 1e-3 /* p-value of the whole chi2 */

@@ -12,7 +12,6 @@
  *   moduli     mean and square of each linear in s: E m = sum m_a M_0 + (m_b - m_a) M_1, and so on
  *   valley     to where f is TAIL: minima inside are this one, those beyond are explanations of their own */
 #include "diagnose/diagnose.h"
-
 #include "fit/fit.h"
 
 #define NEAR    0.01 /* of the range: as near as an end is looked for, */

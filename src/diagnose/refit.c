@@ -1,5 +1,4 @@
 #include "diagnose/diagnose.h"
-
 #include "fit/fit.h"
 
 #define PROMISES   10.0 /* drop of chi2 from which the mesh of a solid is worth another fit */

@@ -1,6 +1,5 @@
 /* The search once: scan, chance, explanations; and again where they show that the data are at fault. */
 #include "diagnose/diagnose.h"
-
 #include "fit/fit.h"
 
 /* The level of the noise of the shapes: judged by what the best model so far leaves, said, used from there on. */

@@ -1,5 +1,4 @@
 #include "diagnose/diagnose.h"
-
 #include "fit/fit.h"
 
 #define LEAST_DOF   3

@@ -1,5 +1,4 @@
 #include "diagnose/diagnose.h"
-
 #include "fit/fit.h"
 
 #define MOST_PLACES 250  /* along the axis; meshes are rarely finer */

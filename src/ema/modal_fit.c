@@ -1,5 +1,4 @@
 #include "ema/ema.h"
-
 #include "linalg/linalg.h"
 
 /* Functions of a mode, times nu^4 and then the first eight times nu^2: real and imaginary parts of g, g^2, g', g'^2; and times

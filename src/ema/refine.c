@@ -1,5 +1,4 @@
 #include "ema/ema.h"
-
 #include "linalg/linalg.h"
 
 #define STEP_TOLERANCE 1e-10 /* of the half bandwidth */

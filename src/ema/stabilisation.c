@@ -1,5 +1,4 @@
 #include "ema/ema.h"
-
 #include "linalg/linalg.h"
 
 #define STEPS   60

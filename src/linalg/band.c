@@ -1,5 +1,4 @@
 #include "linalg/linalg.h"
-
 #include "linalg/machine.h"
 
 #define INLINE static inline __attribute__((always_inline))

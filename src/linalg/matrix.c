@@ -1,5 +1,4 @@
 #include "linalg/linalg.h"
-
 #include "linalg/machine.h"
 
 #define WIDE    20 /* half band from which zeros are looked for: a finite element couples few of the rows between */

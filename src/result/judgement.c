@@ -1,7 +1,6 @@
-#include "result/result.h"
-
 #include "diagnose/diagnose.h"
 #include "fit/fit.h"
+#include "result/result.h"
 
 #define SAME 1e-3 /* relative difference of parameters that is not worth a word */
 

@@ -1,6 +1,5 @@
-#include "run/run.h"
-
 #include "fit/fit.h"
+#include "run/run.h"
 
 /* Whether fits of the job run on the coarse mesh. */
 static int mesh_is_held(const struct job *job)

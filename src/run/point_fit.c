@@ -1,6 +1,5 @@
-#include "run/run.h"
-
 #include "fit/fit.h"
+#include "run/run.h"
 
 #define CONSTANT   1e-10  /* squared variation against the squared size: a column that rounding alone moves */
 #define ALIKE      1e-8   /* sine squared between two columns */

@@ -609,10 +609,6 @@ void frf_measured_curve(const struct frf_result *result, const struct frf_set *s
 
 /* How the hybrid functionals grow away from the optimum: Figure 3 of the paper. */
 
-struct job;
-struct parameter;
-struct pool;
-
 enum { GROWTH_E, GROWTH_F, GROWTH_KINDS }; /* HYBRID with (15), HYBRID_F with (16) */
 
 /* one of the functionals */

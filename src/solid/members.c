@@ -1,7 +1,6 @@
-#include "solid/solid.h"
-
 #include "beam/beam.h"
 #include "linalg/linalg.h"
+#include "solid/solid.h"
 
 struct member {
     int number;

@@ -1,6 +1,5 @@
-#include "solid/solid.h"
-
 #include "linalg/linalg.h"
+#include "solid/solid.h"
 
 static const double place[3] = {-0.77459666924148337704, 0, 0.77459666924148337704};
 static const double weight[3] = {5.0 / 9, 8.0 / 9, 5.0 / 9};

@@ -1,7 +1,6 @@
 /* One run of a study: the experiment, the fit, the diagnosis or the critical speeds of it, and the line that says so. */
-#include "study/study.h"
-
 #include "api/api.h"
+#include "study/study.h"
 
 #define PLACE_TOLERANCE 0.03 /* of the length of the rotor */
 

@@ -1,6 +1,5 @@
-#include "suggest/suggest.h"
-
 #include "fit/fit.h"
+#include "suggest/suggest.h"
 
 #define SHARED 0.99  /* of the explanations that are rivals */
 #define LEAST  1e-12 /* probability: what was left out of the sum may have so much */

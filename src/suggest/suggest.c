@@ -1,5 +1,4 @@
 #include "suggest/suggest.h"
-
 #include "fit/fit.h"
 
 /* Where sensors could stand, and what they would say there: columns of parameters and of the causes of the catalogue. */
