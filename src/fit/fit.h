@@ -51,8 +51,8 @@ double bounds_slope(const rotid_parameter *parameter, double chi, double y);
  * what the step does to the others. */
 void bounds_jacobian(int m, int n, const rotid_parameter *parameter, double chi, const double *y, const double *dr_dx,
                      double *dr_dy);
-/* The sigmoid saturates where x is this near to a bound, as part of the interval: -1 lower, 1 upper, 0 neither. Of an interval that
- * spans decades the lower one also has to be near beside itself or beside what the start is above it. */
+/* The sigmoid saturates where x is this near to a bound, as part of the interval: -1 lower, 1 upper, 0 neither. Of an interval
+ * that spans decades the lower one also has to be near beside itself or beside what the start is above it. */
 int bounds_pressed(const rotid_parameter *parameter, double x);
 
 /* ------------------------------------------------------------------------------------------------------------ covariance */
