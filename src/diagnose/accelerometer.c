@@ -136,14 +136,13 @@ static int open_weighing(struct pool *pool, const struct engine *engine, struct 
     size_t count = (size_t)w->nmode * (size_t)w->npoint;
     double **arrays[] = {&w->hz, &w->std, &w->square, &w->others, &w->phi, &w->bend, &w->across, &w->across_bend, &w->spread};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
-        if (!(*arrays[i] = POOL_ARRAY(pool, double, count)))
-            return ROTID_ERROR_MEMORY;
+        *arrays[i] = POOL_ARRAY(pool, double, count);
     w->order = POOL_ARRAY(pool, double, w->npoint);
     w->hammer = -1;
     for (int s = 0; s < w->npoint; s++)
         if (engine->job->measurement.hammer && engine->job->rotor.sensor[s].id == engine->job->measurement.hammer)
             w->hammer = s;
-    return w->order ? ROTID_OK : ROTID_ERROR_MEMORY;
+    return pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
 /* The test went through the sensors by their ids: the place of each from -0.5 to 0.5. */

@@ -308,12 +308,10 @@ static int new_result(struct pool *keep, const struct joint *joint, int history_
     result->jacobian = POOL_ARRAY(keep, double, (size_t)nresidual *(size_t)n);
     double **arrays[] = {&result->x, &result->std, &result->ci_lower, &result->ci_upper, &result->singular_value};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
-        if (!(*arrays[i] = POOL_ARRAY(keep, double, n)))
-            return ROTID_ERROR_MEMORY;
+        *arrays[i] = POOL_ARRAY(keep, double, n);
     double **by_mode[] = {&result->predicted_hz, &result->mac, &result->residual};
     for (size_t i = 0; i < sizeof by_mode / sizeof *by_mode; i++)
-        if (!(*by_mode[i] = POOL_ARRAY(keep, double, m)))
-            return ROTID_ERROR_MEMORY;
+        *by_mode[i] = POOL_ARRAY(keep, double, m);
     result->at_bound = POOL_ARRAY(keep, int, n);
     result->identifiable = POOL_ARRAY(keep, int, n);
     result->direction_undetermined = POOL_ARRAY(keep, int, n);
@@ -323,11 +321,7 @@ static int new_result(struct pool *keep, const struct joint *joint, int history_
     result->history = POOL_ARRAY(keep, rotid_fit_iteration, rows);
     result->history_x = POOL_ARRAY(keep, double, rows *(size_t)n);
     result->baseline = POOL_ARRAY(keep, rotid_baseline, baseline_count(n));
-    return result->r && result->jacobian && result->at_bound && result->identifiable && result->direction_undetermined &&
-                   result->covariance && result->correlation && result->direction && result->history && result->history_x &&
-                   result->baseline
-               ? ROTID_OK
-               : ROTID_ERROR_MEMORY;
+    return keep->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
 /* Standard deviations of the residuals: of the noise the user states, in the units of the functional. NULL where it is not known.

@@ -23,10 +23,7 @@ int lanczos_new(struct pool *pool, struct pencil *pencil, struct factor *factor,
     l->remainder = POOL_ARRAY(pool, double, (size_t)behind *(size_t)behind);
     l->work = POOL_ARRAY(pool, double, 34 * (size_t)most);
     l->iwork = POOL_ARRAY(pool, int, 12 * (size_t)most);
-    return l->basis && l->mass_basis && l->image && l->projected && l->vector && l->component && l->theta && l->remainder &&
-                   l->work && l->iwork
-               ? ROTID_OK
-               : ROTID_ERROR_MEMORY;
+    return pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
 /* Makes the columns of W [n * columns], M W beside it, M-orthonormal: W = Q R, R [behind * columns]. Columns that are least[c]

@@ -118,9 +118,9 @@ int growth_run(struct pool *pool, const struct job *job, int n, const struct par
     struct growth_line *line[GROWTH_KINDS] = {[GROWTH_E] = &out->hybrid, [GROWTH_F] = &out->hybrid_f};
     double **arrays[] = {&out->epsilon_squared, &out->hybrid.objective, &out->hybrid_f.objective, &out->shapes_alone};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
-        if (!(*arrays[i] = POOL_ARRAY(pool, double, POINTS)))
-            return ROTID_ERROR_MEMORY;
-    int status = model ? model_open(pool, job->models, &job->rotor, n, parameter, 1, model, &failed) : ROTID_ERROR_MEMORY;
+        *arrays[i] = POOL_ARRAY(pool, double, POINTS);
+    int status =
+        pool->out_of_memory ? ROTID_ERROR_MEMORY : model_open(pool, job->models, &job->rotor, n, parameter, 1, model, &failed);
     if (!status)
         status = prepare(pool, job, &model->equations, modes, seed, &search);
     for (int i = 0; i < POINTS && !status; i++) {

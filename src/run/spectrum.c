@@ -318,12 +318,11 @@ static int compute(struct pool *pool, const struct task *task, int reduction, in
                            .rigid_hz = own.hz};
     double **arrays[] = {&s->full_hz, &s->other_hz, &s->reduced_hz, &s->reduction_error_percent, &s->mesh_error_percent};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
-        if (!(*arrays[i] = POOL_ARRAY(pool, double, count)))
-            return ROTID_ERROR_MEMORY;
+        *arrays[i] = POOL_ARRAY(pool, double, count);
     int alike = other.model && other.model->equations.nmaster == s->nmaster;
     s->other_shape = alike ? other.shape : NULL;
     s->master_z = POOL_ARRAY(pool, double, s->nmaster);
-    if (!s->master_z)
+    if (pool->out_of_memory)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < s->nmaster; i++)
         s->master_z[i] = model_master_z(own.model, i);

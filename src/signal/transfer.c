@@ -631,12 +631,7 @@ static int open_worker(struct pool *pool, int n, int nline, int most, struct wor
     worker->part = POOL_ARRAY(pool, double complex, nline);
     worker->weight = POOL_ARRAY(pool, double, most);
     worker->smooth = POOL_ARRAY(pool, double, nline + 2 * ESTIMATOR_SMOOTH + 2);
-    if (status)
-        return status;
-    return worker->force && worker->response && worker->forced && worker->responding && worker->sum.ff && worker->sum.xx &&
-                   worker->sum.xf && worker->part && worker->weight && worker->smooth
-               ? ROTID_OK
-               : ROTID_ERROR_MEMORY;
+    return status ? status : pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
 /* Room for the results and for `threads` workers. */
