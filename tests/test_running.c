@@ -227,23 +227,32 @@ POOL_TEST(critical_speeds_far_below_the_first_step_are_found_once)
     }
 }
 
-/* A slender shaft, two disks and soft bearings, one of them of two stiffnesses: loci cross between two steps of a coarse diagram.
- */
+/* Loci cross between two steps of a coarse diagram: a slender shaft with two disks on soft bearings, one of them of two
+ * stiffnesses, and a drum on a bearing that stiffens with the speed. */
 POOL_TEST(critical_speeds_are_those_of_a_finer_diagram)
 {
-    struct running_case coarse, fine;
-    const char *deck =
+    const char *path = folder_write("drum.csv", "speed_rpm,kxx,kyy,cxx,cyy\n0,154888,154888,28.2645,28.2645\n"
+                                                "9149.5,2.01097e7,2.01097e7,28.2645,28.2645\n"
+                                                "24277.9,9.58024e7,9.58024e7,28.2645,28.2645\n");
+    const char *deck[] = {
         "*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=s\n0.79, 0.03775, 0, 6\n*RUNNING\n"
         "*DISK\n0.76, 98.39, 0.02984, 0.229\n0.695, 21, 0.01276, 31.47\n*BEARING\n0.1395, 60151, 60151, 22, 22\n*BEARING\n"
-        "0.6579, 48042, 87108, 0, 0\n*LOSS\na, 0.01\n";
-    assert_int_equal(running_case_open(deck, 20000, 6, 0, &coarse), ROTID_OK);
-    assert_int_equal(running_case_open(deck, 20000, 301, 0, &fine), ROTID_OK);
-    assert_int_equal(coarse.speeds.ncampbell, 6);
-    assert_int_equal(coarse.speeds.ncritical_speeds, fine.speeds.ncritical_speeds);
-    for (int i = 0; i < coarse.speeds.ncritical_speeds; i++)
-        assert_close(coarse.speeds.critical_speeds[i].speed_rpm, fine.speeds.critical_speeds[i].speed_rpm, 1e-8, 0);
-    running_case_close(&fine);
-    running_case_close(&coarse);
+        "0.6579, 48042, 87108, 0, 0\n*LOSS\na, 0.01\n",
+        pool_format(&test_pool,
+                    "*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=s\n1.94085, 0.175535, 0, "
+                    "20\n*RUNNING\n*BEARING, FILE=%s\n0.0917114\n*BEARING\n1.47385, 1.08872e8, 1.08872e8, 1644.43, 28169.7\n",
+                    path)};
+    for (int i = 0; i < 2; i++) {
+        struct running_case coarse, fine;
+        assert_int_equal(running_case_open(deck[i], i ? 25000 : 20000, 6, 0, &coarse), ROTID_OK);
+        assert_int_equal(running_case_open(deck[i], i ? 25000 : 20000, 301, 0, &fine), ROTID_OK);
+        assert_int_equal(coarse.speeds.ncampbell, 6);
+        assert_int_equal(coarse.speeds.ncritical_speeds, fine.speeds.ncritical_speeds);
+        for (int j = 0; j < coarse.speeds.ncritical_speeds; j++)
+            assert_close(coarse.speeds.critical_speeds[j].speed_rpm, fine.speeds.critical_speeds[j].speed_rpm, 1e-8, 0);
+        running_case_close(&fine);
+        running_case_close(&coarse);
+    }
 }
 
 /* Bearings whose stiffnesses of two directions, coupled a little, exchange their places between two rows of a table. */
