@@ -432,6 +432,11 @@ def draws(checks, folder):
     refused(checks, "draws: a parameter that is no modulus", "tail.K", rotid.stochastic, deck, {"tail.K": [1.0]})
     bound = rotid.run("identify", folder / "bound.inp", no_baseline=True)
     refused(checks, "draws: a parameter at a bound", "a.E", rotid.draws, bound, 5)
+    for count in (0, -1):
+        refused(checks, f"draws: {count} of them", f"is {count}, expected at least 1", rotid.draws, fit, count)
+    mass = {"name": "accelerometer.mass", "value": 0.02, "std": 0.03, "lower": 0.0, "upper": 0.06, "at_bound": False}
+    drawn = rotid.draws({"parameters": [mass], "correlation": [[1.0]]}, 2000, seed=4)["accelerometer.mass"]
+    checks.true("draws: none beyond a bound", drawn.size == 2000 and 0 <= drawn.min() < 0.002 and 0.058 < drawn.max() <= 0.06, (drawn.min(), drawn.max()))
 
 
 # ---- from Nastran and Abaqus

@@ -8,7 +8,9 @@ from .ross import built, compare, exported, parts_of, round_section
 def draws(result, count, seed=None):
     """Parameters as a host of `rotid identify` knows them: name -> [count], from the normal distribution with the identified values,
     standard deviations and correlation. RotidError where a standard deviation is not known, or a parameter is at a bound: then the
-    distribution is another one. Of moduli, draws that are not above zero are drawn anew."""
+    distribution is another one. Draws of moduli that are not above zero, and of any parameter beyond its bounds, are drawn anew."""
+    if not count >= 1:
+        raise RotidError([f"the number of draws is {count}, expected at least 1"])
     parameters = result["parameters"]
     for p in parameters:
         if p["std"] is None or not np.isfinite(p["std"]):
@@ -24,13 +26,16 @@ def draws(result, count, seed=None):
     root = vectors * np.sqrt(np.maximum(values, 0))
     generator = np.random.default_rng(seed)
     positive = np.array([p["name"].endswith((".E", ".G")) for p in parameters])
+    lower, upper = (np.array([none if p.get(key) is None else p[key] for p in parameters]) for key, none in (("lower", -np.inf), ("upper", np.inf)))
     drawn, tries = np.empty((0, len(std))), 0
     while len(drawn) < count:
         tries += 1
         if tries > 100:
-            raise RotidError(["most draws have a modulus that is not above zero, expected standard deviations far below the values"])
+            raise RotidError(["most draws have a modulus that is not above zero or a parameter beyond its bounds, expected standard deviations far "
+                              "below the values and the bounds"])
         more = mean + generator.standard_normal((count, len(std))) @ root.T * std
-        drawn = np.vstack((drawn, more[(more[:, positive] > 0).all(axis=1)]))
+        inside = (more[:, positive] > 0).all(axis=1) & ((more >= lower) & (more <= upper)).all(axis=1)
+        drawn = np.vstack((drawn, more[inside]))
     return {p["name"]: drawn[:count, i] for i, p in enumerate(parameters)}
 
 
