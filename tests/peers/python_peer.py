@@ -437,6 +437,15 @@ def draws(checks, folder):
     mass = {"name": "accelerometer.mass", "value": 0.02, "std": 0.03, "lower": 0.0, "upper": 0.06, "at_bound": False}
     drawn = rotid.draws({"parameters": [mass], "correlation": [[1.0]]}, 2000, seed=4)["accelerometer.mass"]
     checks.true("draws: none beyond a bound", drawn.size == 2000 and 0 <= drawn.min() < 0.002 and 0.058 < drawn.max() <= 0.06, (drawn.min(), drawn.max()))
+    stiff_in_shear = folder / "stiff_in_shear.inp"  # whose fitted E, 0.14 of G, is none of a material of ROSS, and whose stated E is one
+    stiff_in_shear.write_text(STEEL + "*MATERIAL, NAME=c\n*ELASTIC, TYPE=SHEAR\n1.2e11, 3e10, 0.3\n*DENSITY\n7600\n*SHAFT, NAME=l, MATERIAL=steel\n"
+                              "0.3, 0.06, 0.01, 6\n*SHAFT, NAME=core, MATERIAL=c\n0.4, 0.12, 0.03, 8\n*SHAFT, NAME=r, MATERIAL=steel\n0.35, 0.05, 0, 7\n"
+                              "*SPRING\n0.05, 2e7\n0.95, 3e7\n*DISK\n0.85, 5, 0.02, 0.04\n*MODES, COUNT=ALL\n1, 50\n*IDENTIFY\ncore.E, 1e9, 1e12, 1.2e11\n")
+    fitted = rotid.run("identify", stiff_in_shear, no_baseline=True)["parameters"][0]["value"]
+    checks.true("draws: E far below G", fitted < 6e9, fitted)
+    refused(checks, "draws: a base without a material of ROSS", "ROSS has no material for the moduli of core", rotid.stochastic, stiff_in_shear,
+            {"core.E": np.array([fitted, 0.9 * fitted])})
+    checks.true("to ROSS: matrices where it has no material", noted(rotid.to_ross, stiff_in_shear)[0] is not None, "")
 
 
 # ---- from Nastran and Abaqus

@@ -47,8 +47,8 @@ def stochastic(deck, drawn, program=None, **options):
     from ross.stochastic import ST_Material, ST_Rotor, ST_ShaftElement
 
     model = exported(deck, False, program, options)
-    shaft, disks, springs, rest = parts_of(model)
     scale, count = scales(model, drawn)
+    shaft, disks, springs, rest = parts_of(model, {group for group, _ in scale})
     rotor = built(model, shaft, disks, springs, rest)
     compare(model, rotor)
     elements = []
@@ -86,7 +86,11 @@ def scales(model, drawn):
             raise RotidError([f"{deck}: {name}: a section with layers depends on it in another way than in proportion"])
         material = groups[group]["material"]
         material.setdefault("g_follows", is_isotropic(material) and f"{group}.G" not in at)  # as stated: e_pa becomes the fitted one
-        material["e_pa" if modulus == "E" else "g_pa"] = value = at.get(name, material["e_pa" if modulus == "E" else "g_pa"])
+        key = "e_pa" if modulus == "E" else "g_pa"
+        value = at.get(name, material[key])
+        if modulus == "E" and material["g_follows"]:
+            material["g_pa"] *= value / material["e_pa"]
+        material[key] = value
         values = np.asarray(values, dtype=float)
         if not (values > 0).all():
             raise RotidError([f"{deck}: {name} has draws that are not above zero"])

@@ -403,8 +403,9 @@ def round_section(outer, ei, kgs, rhos, rhoi):
     return (outer, math.sqrt(inner2), e, (3 * a + 6 * b) * e / below, rhos / area) if below > 0 else None
 
 
-def parts_of(model):
-    """Elements as (length, outer, inner, E, G_s, rho, force, group, section), disks, springs, and K, M and polar inertia that are left."""
+def parts_of(model, drawn=()):
+    """Elements as (length, outer, inner, E, G_s, rho, force, group, section), disks, springs, and K, M and polar inertia that are left.
+    RotidError where ROSS has no material for an element of a group of `drawn`: what is left of it would not be drawn."""
     z, geometry = model["z"], model["geometry"]
     k, m = model["k"].copy(), model["m"].copy()
     shaft, last = [], None
@@ -413,6 +414,9 @@ def parts_of(model):
         outer, group, segment = segment_at(geometry, (z[i] + z[i + 1]) / 2)
         found = identified(length, model["k"][2 * i:2 * i + 2, 2 * i + 2:2 * i + 4], model["m"][2 * i:2 * i + 2, 2 * i + 2:2 * i + 4])
         section = found and round_section(outer, found[0], 12 * found[0] / (max(found[1], 1e-12) * length**2), found[3], found[4])
+        if found and not section and group["name"] in drawn:
+            raise RotidError([f"{model['deck']}: ROSS has no material for the moduli of {group['name']}: G is too large for E, expected a ratio "
+                              "nearer to that of an isotropic material"])
         if not section:  # a joint, a mass or a spring lies in it: as its neighbour or its card; what differs is left for the rest
             section, found = last and last[0] == id(segment) and last[1] or stated(group, segment, outer), None
         section = (*section, found[2] if found else 0.0)
