@@ -443,8 +443,12 @@ def draws(checks, folder):
                               "*SPRING\n0.05, 2e7\n0.95, 3e7\n*DISK\n0.85, 5, 0.02, 0.04\n*MODES, COUNT=ALL\n1, 50\n*IDENTIFY\ncore.E, 1e9, 1e12, 1.2e11\n")
     fitted = rotid.run("identify", stiff_in_shear, no_baseline=True)["parameters"][0]["value"]
     checks.true("draws: E far below G", fitted < 6e9, fitted)
-    refused(checks, "draws: a base without a material of ROSS", "ROSS has no material for the moduli of core", rotid.stochastic, stiff_in_shear,
+    refused(checks, "draws: a base without a material of ROSS", "core has no element of ROSS from z = 0.3 to 0.35 m", rotid.stochastic, stiff_in_shear,
             {"core.E": np.array([fitted, 0.9 * fitted])})
+    gap = folder / "gap.inp"  # a joint in the only element of the group, whose moduli do not scale it
+    gap.write_text(STEEL + "*SHAFT, NAME=a, MATERIAL=steel\n0.4, 0.1, 0, 1\n*SHAFT, NAME=b, MATERIAL=steel\n0.3, 0.08, 0, 3\n*CAUSE, NAME=gap, TYPE=joint, "
+                   "BETWEEN=a,b\nflexibility, 2e-7\n*MODES, COUNT=ELASTIC\n1, 560\n*IDENTIFY\na.E, 1e10, 9e11, 2e11\n")
+    refused(checks, "draws: a joint in an element", "a has no element of ROSS from z = 0 to 0.4 m", rotid.stochastic, gap, {"a.E": np.array([8e10, 9e10])})
     checks.true("to ROSS: matrices where it has no material", noted(rotid.to_ross, stiff_in_shear)[0] is not None, "")
 
 

@@ -405,7 +405,7 @@ def round_section(outer, ei, kgs, rhos, rhoi):
 
 def parts_of(model, drawn=()):
     """Elements as (length, outer, inner, E, G_s, rho, force, group, section), disks, springs, and K, M and polar inertia that are left.
-    RotidError where ROSS has no material for an element of a group of `drawn`: what is left of it would not be drawn."""
+    RotidError where stiffness of an element of a group of `drawn` is left, which would not be drawn."""
     z, geometry = model["z"], model["geometry"]
     k, m = model["k"].copy(), model["m"].copy()
     shaft, last = [], None
@@ -414,9 +414,6 @@ def parts_of(model, drawn=()):
         outer, group, segment = segment_at(geometry, (z[i] + z[i + 1]) / 2)
         found = identified(length, model["k"][2 * i:2 * i + 2, 2 * i + 2:2 * i + 4], model["m"][2 * i:2 * i + 2, 2 * i + 2:2 * i + 4])
         section = found and round_section(outer, found[0], 12 * found[0] / (max(found[1], 1e-12) * length**2), found[3], found[4])
-        if found and not section and group["name"] in drawn:
-            raise RotidError([f"{model['deck']}: ROSS has no material for the moduli of {group['name']}: G is too large for E, expected a ratio "
-                              "nearer to that of an isotropic material"])
         if not section:  # a joint, a mass or a spring lies in it: as its neighbour or its card; what differs is left for the rest
             section, found = last and last[0] == id(segment) and last[1] or stated(group, segment, outer), None
         section = (*section, found[2] if found else 0.0)
@@ -425,7 +422,11 @@ def parts_of(model, drawn=()):
         area, inertia = math.pi / 4 * (outer**2 - inner**2), math.pi / 64 * (outer**4 - inner**4)
         phi = 12 * e * inertia / (cowper(e / (2 * g) - 1, inner / outer) * g * area * length**2)
         mass = beam_mass(length, phi)
-        k[at, at] -= beam_stiffness(length, e * inertia, phi, force)
+        bent = beam_stiffness(length, e * inertia, phi, force)
+        if group["name"] in drawn and np.abs(bent - model["k"][at, at])[:2, 2:].max() > 1e-6 * np.abs(bent).max():
+            raise RotidError([f"{model['deck']}: {group['name']} has no element of ROSS from z = {z[i]:g} to {z[i + 1]:g} m, expected a ratio of E and "
+                              "G nearer to that of an isotropic material, and nothing in that element but its section: the rest would not be drawn"])
+        k[at, at] -= bent
         m[at, at] -= rho * area * mass[0] + rho * inertia * mass[1]
         shaft.append((length, *section, group, segment))
     disks, springs = [], []
