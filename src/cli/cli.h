@@ -144,12 +144,12 @@ struct command_fit {
     rotid_fit_result *fit; /* to be freed with rotid_fit_free, or NULL */
 };
 
-/* The states of the deck or that of --state, not fitted yet; refused where `what` ("a diagnosis", NULL for anything) is of bending
- * and one of them is not. An exit code, EXIT_DONE to go on. */
+/* The states of the deck or that of --state, not fitted yet; refused where `what` ("a diagnosis", NULL for anything) is of
+ * bending and one of them is not. An exit code, EXIT_DONE to go on. */
 int command_choose_states(struct command *command, const char *what, struct command_fit *fit);
 
-/* Fits the deck, where `wanted` and a mode is measured, over all of its states. Without a mode and with unknowns a warning. fit: of
- * command_choose_states. An exit code, EXIT_DONE to go on. */
+/* Fits the deck, where `wanted` and a mode is measured, over all of its states. Without a mode and with unknowns a warning. fit:
+ * of command_choose_states. An exit code, EXIT_DONE to go on. */
 int command_fit_deck(struct command *command, int wanted, struct command_fit *fit);
 
 /* Warns of identifications at whose values the models are `done`, where they did not end well or their reduction is coarse. An
