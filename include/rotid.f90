@@ -2355,7 +2355,7 @@ contains
   pure function ones_to_zeros(index) result(from_zero)
     integer, intent(in) :: index(:)
     integer(c_int) :: from_zero(size(index))
-    from_zero = int(index, c_int) - 1_c_int
+    from_zero = int(max(index, 0) - 1, c_int) ! none lies below the lowest integer
   end function ones_to_zeros
 
 end module rotid

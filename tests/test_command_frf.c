@@ -311,6 +311,20 @@ POOL_TEST(what_cannot_be_synthesised_is_refused)
     assert_int_equal(frf_of(PAPER, "--json /nowhere/at/all.json"), 3);
 }
 
+/* Shapes that no fit resembles, which a fit would say: what is known beforehand is refused before it. */
+POOL_TEST(a_deck_without_damping_is_refused_before_the_fit)
+{
+    static const char *const modes = "*SENSORS\n1, start\n2, 0.1\n3, 0.5\n4, end\n*MODES\n1, 500\n2, 1400\n"
+                                     "*SHAPE, MODE=1\n1, 1\n2, -1\n3, 1\n4, -1\n*SHAPE, MODE=2\n1, -1\n2, -1\n3, 1\n4, -1\n"
+                                     "*IDENTIFY\ncore.E, 1e10, 3e11, 1.5e11\n";
+    write_deck("deck.inp", SHAFT, modes);
+    (void)frf_of(folder_path("deck.inp"), "--set FRF.DAMPING=0.01");
+    assert_non_null(strstr(output, "no measured shape resembles a mode of the model"));
+    assert_int_equal(frf_of(folder_path("deck.inp"), ""), 2);
+    assert_non_null(strstr(errors, "no mode has a damping ratio"));
+    assert_null(strstr(errors, "no measured shape"));
+}
+
 /* A core that no shear modulus within its bounds makes stiff enough: computed, and not to be trusted. */
 POOL_TEST(an_identification_at_a_bound_is_said)
 {

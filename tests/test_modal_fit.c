@@ -233,6 +233,44 @@ UNIT_TEST(a_guard_whose_information_is_lost_leaves_the_modes_theirs)
         assert_close(std[0][j], std[1][j], 1e-9, 0);
 }
 
+/* An undamped guard just below the lines and another one further off wander on where rounding refuses their steps, as beside
+ * clean measurements whose band begins where nothing is: the modes are known as well as they say long before. Modes that are
+ * still on their way are not. */
+UNIT_TEST(convergence_waits_for_the_modes_and_not_for_guards)
+{
+    int wandering = 0, told = 0, early = 0;
+    for (int k = 0; k < 50; k++) {
+        struct random_stream random = {.state = (uint64_t)(100 + k)};
+        struct case_of_poles drawn = {.nmode = 5};
+        struct ema_band band;
+        struct modal_fit fit;
+        struct refinement refinement;
+        for (int r = 0; r < 3; r++)
+            drawn.pole[r] = (0.75 + 0.25 * r) * CMPLX(-4e-3, 1);
+        drawn.pole[3] = CMPLX(-between(&random, 0, 1e-9), between(&random, 0.58, low));
+        drawn.pole[4] = between(&random, 0.1, 0.5) * CMPLX(-between(&random, 0.01, 1), 1);
+        measure(&drawn, &random, &band);
+        double complex start[5] = {drawn.pole[0], drawn.pole[1], drawn.pole[2], CMPLX(-1e-3, 0.59), 1.2 * drawn.pole[4]};
+        for (int most = 1; most <= 40; most += 39) {
+            for (int r = 0; r < 3; r++)
+                start[r] = drawn.pole[r] * (1 + (most == 1 ? 0.01 : 0));
+            assert_int_equal(refinement_open(&test_pool, &band, LINES, all_lines(), 0, CHANNELS, 5, start, 1, &fit, &refinement),
+                             ROTID_OK);
+            fit.loose[3] = fit.loose[4] = 1;
+            assert_int_equal(refine_poles(&fit, most, NULL, &refinement), ROTID_OK);
+            early += most == 1 && refinement.converged;
+        }
+        wandering += refinement.iterations >= 26;
+        told += refinement.converged;
+        for (int j = 0; j < 6 && refinement.converged; j++) {
+            double complex error = fit.pole[j / 2] - drawn.pole[j / 2] / fit.scale;
+            assert_true(fabs(j % 2 ? cimag(error) : creal(error)) < 4.5 * sqrt(refinement.covariance[j + j * 10]));
+        }
+    }
+    print_message("%d of 50 told, the guards of %d wander on\n", told, wandering);
+    assert_true(wandering > 20 && told >= 45 && !early);
+}
+
 /* d chi2/d pole = -2 score and its second derivative 2 schur where the residual is noise alone, by central differences. */
 UNIT_TEST(the_score_is_the_slope_of_chi2)
 {

@@ -136,14 +136,18 @@ struct fitted_state {
     struct identification identified; /* by all states, with its own unknowns; fit NULL: nothing was fitted */
 };
 struct command_fit {
-    int count; /* all states, or that of --state */
+    int first, count; /* all states of the deck, or that of --state */
     struct fitted_state *state;
     rotid_fit_result *fit; /* to be freed with rotid_fit_free, or NULL */
 };
 
-/* Fits the deck, where `wanted` and a mode is measured, over all of its states. Without a mode and with unknowns a warning. An
- * exit code, EXIT_DONE to go on. */
-int command_fit_deck(struct command *command, int wanted, const char *what, struct command_fit *fit);
+/* The states of the deck or that of --state, not fitted yet; refused where `what` ("a diagnosis", NULL for anything) is of
+ * bending and one of them is not. An exit code, EXIT_DONE to go on. */
+int command_choose_states(struct command *command, const char *what, struct command_fit *fit);
+
+/* Fits the deck, where `wanted` and a mode is measured, over all of its states. Without a mode and with unknowns a warning. fit:
+ * of command_choose_states. An exit code, EXIT_DONE to go on. */
+int command_fit_deck(struct command *command, int wanted, struct command_fit *fit);
 
 /* Warns of identifications at whose values the models are `done`, where they did not end well or their reduction is coarse. An
  * exit code, EXIT_DONE or EXIT_DOUBTFUL. */

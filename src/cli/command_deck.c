@@ -101,31 +101,41 @@ static int fit_all(struct command *command, const struct states *states, struct 
     return status;
 }
 
-int command_fit_deck(struct command *command, int wanted, const char *what, struct command_fit *fit)
+int command_choose_states(struct command *command, const char *what, struct command_fit *fit)
 {
     const struct states *states = deck_states_of(command->read);
-    struct identification *found = POOL_ARRAY(&command->pool, struct identification, states->nstate);
-    int chosen = chosen_state(command), status = ROTID_OK;
-    *fit = (struct command_fit){.count = chosen < 0 ? states->nstate : 1,
+    int chosen = chosen_state(command);
+    *fit = (struct command_fit){.first = chosen < 0 ? 0 : chosen,
+                                .count = chosen < 0 ? states->nstate : 1,
                                 .state = POOL_ARRAY(&command->pool, struct fitted_state, states->nstate)};
-    if (!found || !fit->state)
+    if (!fit->state)
         return command_fail(command, ROTID_ERROR_MEMORY);
     if (chosen == -2)
         return command_fail(command, ROTID_ERROR_ARGUMENT);
-    if (wanted && states_modes(states, states->nstate))
+    for (int i = 0; i < fit->count; i++) {
+        struct state *state = &states->state[fit->first + i];
+        const struct states one = {.nstate = 1, .state = state};
+        if (what && states_refuse_types(&one, what, &command->messages))
+            return command_fail(command, ROTID_ERROR_ARGUMENT);
+        fit->state[i] = (struct fitted_state){.name = state->name, .job = &state->job};
+    }
+    return EXIT_DONE;
+}
+
+int command_fit_deck(struct command *command, int wanted, struct command_fit *fit)
+{
+    const struct states *states = deck_states_of(command->read);
+    struct identification *found = POOL_ARRAY(&command->pool, struct identification, states->nstate);
+    int status = found ? ROTID_OK : ROTID_ERROR_MEMORY;
+    if (!status && wanted && states_modes(states, states->nstate))
         status = fit_all(command, states, found, fit);
-    else if (wanted && states->nparameter)
+    else if (!status && wanted && states->nparameter)
         message_warn(&command->messages,
                      "no mode was measured: the model is taken as the deck states it, not at identified parameters");
     if (status)
         return command_fail(command, status);
-    for (int i = 0; i < fit->count; i++) {
-        const struct state *state = &states->state[chosen < 0 ? i : chosen];
-        const struct states one = {.nstate = 1, .state = (struct state *)state};
-        if (what && states_refuse_types(&one, what, &command->messages))
-            return command_fail(command, ROTID_ERROR_ARGUMENT);
-        fit->state[i] = (struct fitted_state){state->name, &state->job, found[chosen < 0 ? i : chosen]};
-    }
+    for (int i = 0; i < fit->count; i++)
+        fit->state[i].identified = found[fit->first + i];
     return EXIT_DONE;
 }
 

@@ -109,7 +109,9 @@ int command_export(struct command *command)
     struct command_fit fit = {0};
     int code = refuse_model(command);
     if (!code)
-        code = command_fit_deck(command, command->read->nparameter && !command->start, "a model for other programs", &fit);
+        code = command_choose_states(command, "a model for other programs", &fit);
+    if (!code)
+        code = command_fit_deck(command, command->read->nparameter && !command->start, &fit);
     if (!code && command_cancelled(NULL)) {
         code = terminal_end(EXIT_DOUBTFUL, "rotid: interrupted, nothing was written\n");
     } else if (!code) {

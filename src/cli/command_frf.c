@@ -123,8 +123,13 @@ int command_frf(struct command *command)
                            "a universal file has no states and the deck has %d, expected --state %s or another one beside it",
                            command->read->nstate, command->read->state_name[0]));
     result.states = POOL_ARRAY(&command->pool, struct result_state, result.nstates);
-    int code = result.states ? command_fit_deck(command, 1, "a lateral transfer function", &fit)
+    int code = result.states ? command_choose_states(command, "a lateral transfer function", &fit)
                              : command_fail(command, ROTID_ERROR_MEMORY);
+    for (int i = 0; i < fit.count && !code; i++)
+        if (frf_refuse_undamped(fit.state[i].job, &command->messages))
+            code = command_fail(command, ROTID_ERROR_ARGUMENT);
+    if (!code)
+        code = command_fit_deck(command, 1, &fit);
     result.nstates = result.nstates ? fit.count : 0;
     if (!code)
         code = synthesise_all(command, &fit, &result);

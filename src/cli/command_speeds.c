@@ -91,7 +91,9 @@ int command_speeds(struct command *command)
     int code = machine_refuse(states, &command->messages) ? command_fail(command, ROTID_ERROR_ARGUMENT)
                                                           : parse_speeds(command, &options);
     if (!code)
-        code = command_fit_deck(command, states->nparameter || states->machine->nunknown, NULL, &fit);
+        code = command_choose_states(command, NULL, &fit);
+    if (!code)
+        code = command_fit_deck(command, states->nparameter || states->machine->nunknown, &fit);
     if (!code && command_cancelled(NULL)) {
         code = terminal_end(EXIT_DOUBTFUL, "rotid: interrupted, nothing was computed\n");
     } else if (!code) {

@@ -329,10 +329,10 @@ int local_merge(const struct pool *pool, const struct ema_band *band, int *count
  * Pereyra 1973, in the form of Kaufman 1975: the information of the poles is the Schur complement of the Gauss-Newton matrix). */
 
 struct refinement {
-    double *covariance; /* [(2 nmode)^2] of (Re, Im lambda/scale a mode) */
-    double *widened;    /* [2 nmode] factor on each standard deviation that came from the scatter over channels, >= 1 */
-    int *moved;         /* [nmode] nonzero: the pole ran away (further than three half-power bandwidths) or grows */
-    int iterations, converged;
+    double *covariance;        /* [(2 nmode)^2] of (Re, Im lambda/scale a mode) */
+    double *widened;           /* [2 nmode] factor on each standard deviation that came from the scatter over channels, >= 1 */
+    int *moved;                /* [nmode] nonzero: the pole ran away (further than three half-power bandwidths) or grows */
+    int iterations, converged; /* converged: no pole but loose ones is further from its best place than 0.3 standard deviations */
     double chi2;
     double *work; /* internal */
 };

@@ -4,7 +4,8 @@
 #define STEP_TOLERANCE 1e-10 /* of the half bandwidth */
 #define FURTHEST       3     /* half-power bandwidths */
 #define NEGLIGIBLE     1e-6  /* of chi2: a step that promises less moves no pole by a thousandth of its standard deviation */
-#define NEAR           0.02
+#define NEAR           0.02  /* standard deviations */
+#define ENOUGH         0.3   /* the same, of what is left to go at the end: it makes errors 5 % larger */
 #define LITTLE_DAMPED  1e-3
 #define QUIET          3 /* steps in succession that leave the modes where they are */
 
@@ -97,10 +98,11 @@ static int damped_step(int p, const double *information, const double *score, do
     return 0;
 }
 
-/* Whether a step [2 nmode] moves no pole but guards by more than NEAR of its standard deviation beside guards as they are. A
- * guard may wander along a valley for ever, which changes nothing for the modes. inverse [p * p] and scale [p] are workspace. */
-static int leaves_modes(const struct modal_fit *fit, const double *information, const double *step, double *inverse,
-                        double *scale)
+/* Whether a step [2 nmode] moves no pole but guards by more than `most` of its standard deviation beside guards as they are; step
+ * NULL: the step to their minimum beside them, by score [2 nmode]. A guard may wander along a valley for ever, which changes
+ * nothing for the modes. inverse [p * p] and scale [p] are workspace. */
+static int leaves_modes(const struct modal_fit *fit, const double *information, const double *score, const double *step,
+                        double most, double *inverse, double *scale)
 {
     int p = 2 * fit->nmode;
     double determinant;
@@ -114,8 +116,10 @@ static int leaves_modes(const struct modal_fit *fit, const double *information, 
     if (positive_invert(p, inverse, &determinant))
         return 0;
     for (int j = 0; j < p; j++) {
-        double variance = inverse[j + (ptrdiff_t)j * p] * scale[j] * scale[j];
-        if (!fit->loose[j / 2] && !fit->held[j / 2] && step[j] * step[j] > NEAR * NEAR * variance)
+        double variance = inverse[j + (ptrdiff_t)j * p] * scale[j] * scale[j], moved = step ? step[j] : 0;
+        for (int k = 0; k < p && !step; k++)
+            moved += inverse[j + (ptrdiff_t)k * p] * scale[j] * scale[k] * score[k];
+        if (!fit->loose[j / 2] && !fit->held[j / 2] && !(moved * moved <= most * most * variance))
             return 0;
     }
     return 1;
@@ -202,7 +206,7 @@ static int descend(struct modal_fit *fit, int most, const rotid_environment *env
             fresh = 1;
             refused = 0;
             if (guarded && mu <= LITTLE_DAMPED)
-                quiet = leaves_modes(fit, information, delta, factor, scale) ? quiet + 1 : 0;
+                quiet = leaves_modes(fit, information, score, delta, NEAR, factor, scale) ? quiet + 1 : 0;
             mu = fmax(mu / 10, 1e-12);
             if (size < STEP_TOLERANCE || (small && mu <= 1e-8 && size < 1e-7) ||
                 (mu <= LITTLE_DAMPED && size <= 1 && promised < NEGLIGIBLE) || quiet == QUIET) {
@@ -218,6 +222,8 @@ static int descend(struct modal_fit *fit, int most, const rotid_environment *env
             break;
     }
     (void)modal_fit_evaluate(fit, MODAL_FIT_SPREAD);
+    sum_channels(fit, information, score);
+    refinement->converged |= leaves_modes(fit, information, score, NULL, ENOUGH, factor, scale);
     return ROTID_OK;
 }
 

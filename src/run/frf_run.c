@@ -457,6 +457,19 @@ static int has_ratio(const struct job *job, int k)
     return job->measurement.damping[k] > 0 && job->measurement.damping[k] < 1;
 }
 
+int frf_refuse_undamped(const struct job *job, struct message_list *notes)
+{
+    for (int k = 0; k < job->measurement.nmode; k++)
+        if (has_ratio(job, k))
+            return ROTID_OK;
+    return job->options.frf.damping > 0
+               ? ROTID_OK
+               : refuse_deck(notes, job,
+                             "no mode has a damping ratio, expected one as third value of *MODES, in the file of *MEASURED, or "
+                             "DAMPING= on *FRF",
+                             0);
+}
+
 /* zeta, damping and moved_lambda of every mode of out->synthesis; compared NULL: nothing was measured. Statuses as above,
  * ARGUMENT where no ratio is known. */
 static int frf_choose_damping(struct pool *pool, const struct job *job, const struct comparison *compared,
@@ -478,12 +491,9 @@ static int frf_choose_damping(struct pool *pool, const struct job *job, const st
             count[elastic]++;
         }
     int of = count[1] > 0; /* the mean is that of elastic modes, as far as one has a ratio */
-    if (!count[of] && stated <= 0)
-        return refuse_deck(
-            notes, job,
-            "no mode has a damping ratio, expected one as third value of *MODES, in the file of *MEASURED, or DAMPING= on "
-            "*FRF",
-            0);
+    int status = frf_refuse_undamped(job, notes);
+    if (status)
+        return status;
     memcpy(out->moved_lambda, s->lambda, (size_t)s->nmode * sizeof *s->lambda);
     for (int r = 0; r < s->nmode; r++) {
         int rigid = r < s->nrigid + suspended;

@@ -592,6 +592,10 @@ struct frf_result {
     double *moved_lambda;      /* [synthesis.nmode] */
 };
 
+/* ROTID_ERROR_ARGUMENT with the error of frf_run in the list where neither a measured mode nor the card has a damping ratio:
+ * known before the fit. Else ROTID_OK. */
+int frf_refuse_undamped(const struct job *job, struct message_list *notes);
+
 /* identified: of the job, whose parameters and pairing are used; NULL where nothing was measured: the model as the deck states
  * it. measured: NULL where there are no functions to compare with. ROTID_OK, also where environment->cancelled ended it (ndone <
  * nrow); ROTID_ERROR_ARGUMENT with an error in the list: an id that does not exist, no lines, no damping, nothing measured that

@@ -328,6 +328,9 @@ contains
                'shapes with a master too few')
     call check(rotid_fit_model(model, parameter, [1, 2], hz, fit, far=[1, 3], shape=shapes, master=[0, 3]) &
                == ROTID_ERROR_ARGUMENT, 'masters from 0')
+    call check(rotid_fit_model(model, parameter, [1, 2], hz, fit, far=[1, 3], shape=shapes, master=[-huge(1) - 1, 3], &
+                               failure=failure) == ROTID_ERROR_ARGUMENT, 'the lowest master')
+    call check(failure == 'master[0] is -1, expected 0 ... 2', 'where the lowest master is')
     call check(rotid_fit_model(model, parameter, [1, 2], hz, fit, options=rotid_fit_options(functional=ROTID_HYBRID)) &
                == ROTID_ERROR_CALLBACK, 'a callback that fails')
     call check(.not. associated(fit), 'no result of it')

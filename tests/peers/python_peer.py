@@ -432,6 +432,24 @@ def draws(checks, folder):
     refused(checks, "draws: a parameter that is no modulus", "tail.K", rotid.stochastic, deck, {"tail.K": [1.0]})
     bound = rotid.run("identify", folder / "bound.inp", no_baseline=True)
     refused(checks, "draws: a parameter at a bound", "a.E", rotid.draws, bound, 5)
+    for count in (0, -1):
+        refused(checks, f"draws: {count} of them", f"is {count}, expected at least 1", rotid.draws, fit, count)
+    mass = {"name": "accelerometer.mass", "value": 0.02, "std": 0.03, "lower": 0.0, "upper": 0.06, "at_bound": False}
+    drawn = rotid.draws({"parameters": [mass], "correlation": [[1.0]]}, 2000, seed=4)["accelerometer.mass"]
+    checks.true("draws: none beyond a bound", drawn.size == 2000 and 0 <= drawn.min() < 0.002 and 0.058 < drawn.max() <= 0.06, (drawn.min(), drawn.max()))
+    stiff_in_shear = folder / "stiff_in_shear.inp"  # whose fitted E, 0.14 of G, is none of a material of ROSS, and whose stated E is one
+    stiff_in_shear.write_text(STEEL + "*MATERIAL, NAME=c\n*ELASTIC, TYPE=SHEAR\n1.2e11, 3e10, 0.3\n*DENSITY\n7600\n*SHAFT, NAME=l, MATERIAL=steel\n"
+                              "0.3, 0.06, 0.01, 6\n*SHAFT, NAME=core, MATERIAL=c\n0.4, 0.12, 0.03, 8\n*SHAFT, NAME=r, MATERIAL=steel\n0.35, 0.05, 0, 7\n"
+                              "*SPRING\n0.05, 2e7\n0.95, 3e7\n*DISK\n0.85, 5, 0.02, 0.04\n*MODES, COUNT=ALL\n1, 50\n*IDENTIFY\ncore.E, 1e9, 1e12, 1.2e11\n")
+    fitted = rotid.run("identify", stiff_in_shear, no_baseline=True)["parameters"][0]["value"]
+    checks.true("draws: E far below G", fitted < 6e9, fitted)
+    refused(checks, "draws: a base without a material of ROSS", "core has no element of ROSS from z = 0.3 to 0.35 m", rotid.stochastic, stiff_in_shear,
+            {"core.E": np.array([fitted, 0.9 * fitted])})
+    gap = folder / "gap.inp"  # a joint in the only element of the group, whose moduli do not scale it
+    gap.write_text(STEEL + "*SHAFT, NAME=a, MATERIAL=steel\n0.4, 0.1, 0, 1\n*SHAFT, NAME=b, MATERIAL=steel\n0.3, 0.08, 0, 3\n*CAUSE, NAME=gap, TYPE=joint, "
+                   "BETWEEN=a,b\nflexibility, 2e-7\n*MODES, COUNT=ELASTIC\n1, 560\n*IDENTIFY\na.E, 1e10, 9e11, 2e11\n")
+    refused(checks, "draws: a joint in an element", "a has no element of ROSS from z = 0 to 0.4 m", rotid.stochastic, gap, {"a.E": np.array([8e10, 9e10])})
+    checks.true("to ROSS: matrices where it has no material", noted(rotid.to_ross, stiff_in_shear)[0] is not None, "")
 
 
 # ---- from Nastran and Abaqus

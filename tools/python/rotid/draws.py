@@ -8,7 +8,9 @@ from .ross import built, compare, exported, parts_of, round_section
 def draws(result, count, seed=None):
     """Parameters as a host of `rotid identify` knows them: name -> [count], from the normal distribution with the identified values,
     standard deviations and correlation. RotidError where a standard deviation is not known, or a parameter is at a bound: then the
-    distribution is another one. Of moduli, draws that are not above zero are drawn anew."""
+    distribution is another one. Draws of moduli that are not above zero, and of any parameter beyond its bounds, are drawn anew."""
+    if not count >= 1:
+        raise RotidError([f"the number of draws is {count}, expected at least 1"])
     parameters = result["parameters"]
     for p in parameters:
         if p["std"] is None or not np.isfinite(p["std"]):
@@ -24,13 +26,16 @@ def draws(result, count, seed=None):
     root = vectors * np.sqrt(np.maximum(values, 0))
     generator = np.random.default_rng(seed)
     positive = np.array([p["name"].endswith((".E", ".G")) for p in parameters])
+    lower, upper = (np.array([none if p.get(key) is None else p[key] for p in parameters]) for key, none in (("lower", -np.inf), ("upper", np.inf)))
     drawn, tries = np.empty((0, len(std))), 0
     while len(drawn) < count:
         tries += 1
         if tries > 100:
-            raise RotidError(["most draws have a modulus that is not above zero, expected standard deviations far below the values"])
+            raise RotidError(["most draws have a modulus that is not above zero or a parameter beyond its bounds, expected standard deviations far "
+                              "below the values and the bounds"])
         more = mean + generator.standard_normal((count, len(std))) @ root.T * std
-        drawn = np.vstack((drawn, more[(more[:, positive] > 0).all(axis=1)]))
+        inside = (more[:, positive] > 0).all(axis=1) & ((more >= lower) & (more <= upper)).all(axis=1)
+        drawn = np.vstack((drawn, more[inside]))
     return {p["name"]: drawn[:count, i] for i, p in enumerate(parameters)}
 
 
@@ -42,8 +47,8 @@ def stochastic(deck, drawn, program=None, **options):
     from ross.stochastic import ST_Material, ST_Rotor, ST_ShaftElement
 
     model = exported(deck, False, program, options)
-    shaft, disks, springs, rest = parts_of(model)
     scale, count = scales(model, drawn)
+    shaft, disks, springs, rest = parts_of(model, {group for group, _ in scale})
     rotor = built(model, shaft, disks, springs, rest)
     compare(model, rotor)
     elements = []
@@ -81,7 +86,11 @@ def scales(model, drawn):
             raise RotidError([f"{deck}: {name}: a section with layers depends on it in another way than in proportion"])
         material = groups[group]["material"]
         material.setdefault("g_follows", is_isotropic(material) and f"{group}.G" not in at)  # as stated: e_pa becomes the fitted one
-        material["e_pa" if modulus == "E" else "g_pa"] = value = at.get(name, material["e_pa" if modulus == "E" else "g_pa"])
+        key = "e_pa" if modulus == "E" else "g_pa"
+        value = at.get(name, material[key])
+        if modulus == "E" and material["g_follows"]:
+            material["g_pa"] *= value / material["e_pa"]
+        material[key] = value
         values = np.asarray(values, dtype=float)
         if not (values > 0).all():
             raise RotidError([f"{deck}: {name} has draws that are not above zero"])

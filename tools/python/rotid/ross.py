@@ -403,8 +403,9 @@ def round_section(outer, ei, kgs, rhos, rhoi):
     return (outer, math.sqrt(inner2), e, (3 * a + 6 * b) * e / below, rhos / area) if below > 0 else None
 
 
-def parts_of(model):
-    """Elements as (length, outer, inner, E, G_s, rho, force, group, section), disks, springs, and K, M and polar inertia that are left."""
+def parts_of(model, drawn=()):
+    """Elements as (length, outer, inner, E, G_s, rho, force, group, section), disks, springs, and K, M and polar inertia that are left.
+    RotidError where stiffness of an element of a group of `drawn` is left, which would not be drawn."""
     z, geometry = model["z"], model["geometry"]
     k, m = model["k"].copy(), model["m"].copy()
     shaft, last = [], None
@@ -421,7 +422,11 @@ def parts_of(model):
         area, inertia = math.pi / 4 * (outer**2 - inner**2), math.pi / 64 * (outer**4 - inner**4)
         phi = 12 * e * inertia / (cowper(e / (2 * g) - 1, inner / outer) * g * area * length**2)
         mass = beam_mass(length, phi)
-        k[at, at] -= beam_stiffness(length, e * inertia, phi, force)
+        bent = beam_stiffness(length, e * inertia, phi, force)
+        if group["name"] in drawn and np.abs(bent - model["k"][at, at])[:2, 2:].max() > 1e-6 * np.abs(bent).max():
+            raise RotidError([f"{model['deck']}: {group['name']} has no element of ROSS from z = {z[i]:g} to {z[i + 1]:g} m, expected a ratio of E and "
+                              "G nearer to that of an isotropic material, and nothing in that element but its section: the rest would not be drawn"])
+        k[at, at] -= bent
         m[at, at] -= rho * area * mass[0] + rho * inertia * mass[1]
         shaft.append((length, *section, group, segment))
     disks, springs = [], []
