@@ -382,7 +382,7 @@ static double by_columns(const char *id, double *x)
     for (int i = 0; i < scan.ncandidate; i++) {
         const struct scan_candidate *c = &scan.candidate[i];
         for (int k = c->first; k < c->first + c->count && !strcmp(c->cause->id, id); k++)
-            sum = sum_logs(sum, evidence_of_item(&scan, &job.rotor, k, NULL) - log(c->count));
+            sum = sum_logs(sum, evidence_of_item(&scan, &job.rotor, k) - log(c->count));
     }
     return nothing + sum;
 }
@@ -478,41 +478,9 @@ POOL_TEST(a_gain_has_its_drop)
             seen++;
             for (int row = 0; row < scan.nrow; row++)
                 scan.r[row] = -scan_side(item) * sqrt(drop) * scan.column[row + (ptrdiff_t)i * scan.nrow];
-            assert_close(evidence_of_item(&scan, &job.rotor, i, NULL), gain, 0, 2e-3);
+            assert_close(evidence_of_item(&scan, &job.rotor, i), gain, 0, 2e-3);
         }
     assert_true(seen > 100);
-}
-
-/* Z is the integral of prior(a) e^(a t - a^2 |c|^2/2), t = -c'r: mean and variance of a are the derivatives of ln Z by t, where
- * the bounds that cut the prior are far. */
-POOL_TEST(the_moments_of_a_size_are_the_derivatives_of_its_evidence)
-{
-    double x[8], ln_z[3];
-    struct state alone;
-    struct scan scan;
-    int seen = 0;
-    open_bar(1);
-    (void)evidence(NULL, NULL, NULL, x);
-    const struct states base = states_of(&job, &alone);
-    assert_status(scan_run(&test_pool, &base, number, holdout, x, SCAN_ALL, &scan), ROTID_OK);
-    for (int i = 0; i < scan.nitem; i++) {
-        const struct scan_item *item = &scan.item[i];
-        struct evidence_size of = {0, 0, 0};
-        if (!item->usable)
-            continue;
-        for (int k = 0; k < 3; k++) {
-            for (int row = 0; row < scan.nrow; row++)
-                scan.r[row] = (k - 1) * 1e-2 * scan.column[row + (ptrdiff_t)i * scan.nrow];
-            ln_z[k] = evidence_of_item(&scan, &job.rotor, i, k == 1 ? &of : NULL);
-        }
-        if (isinf(of.prior) || !(of.mean - 4 * of.std > item->lower && of.mean + 4 * of.std < item->upper))
-            continue;
-        assert_close((ln_z[0] - ln_z[2]) / (2e-2 * item->norm), of.mean, 1e-3, 1e-3 * of.std);
-        assert_close((ln_z[0] - 2 * ln_z[1] + ln_z[2]) / pow(1e-2 * item->norm, 2), of.std * of.std, 1e-2, 0);
-        assert_true(of.std < of.prior);
-        seen++;
-    }
-    assert_true(seen > 1);
 }
 
 /* Something else needs the columns of its fields alone, one width of a zone at each place: the same as among all. */

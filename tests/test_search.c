@@ -53,31 +53,6 @@ UNIT_TEST(modes_that_cross_on_the_way_to_a_far_cause_keep_their_numbers)
     rotid_diagnosis_free(d);
 }
 
-/* Of a bar of one material the density is a cause that no data tell: a fit of its factor ends anywhere, so the odds are those
- * before the data and the moduli what the prior makes of them, from whichever end the bar is described. The sling is at its
- * start. */
-UNIT_TEST(a_cause_that_no_data_see_has_the_odds_of_its_prior)
-{
-    rotid_diagnosis *d[2] = {diagnosed("bare_core"), diagnosed("bare_core_mirrored")};
-    double density[2] = {0, 0};
-    for (int i = 0; i < 2; i++) {
-        assert_int_equal(d[i]->verdict.explanations[0].ncauses, 0);
-        for (int k = 1; k < d[i]->verdict.nexplanations; k++)
-            if (d[i]->verdict.explanations[k].ncauses == 1 && !strcmp(d[i]->verdict.explanations[k].causes[0].id, "density"))
-                density[i] = d[i]->verdict.explanations[k].probability;
-    }
-    assert_close(density[0], 0.046, 0.02, 0);
-    assert_close(density[1], density[0], 0.005, 0);
-    assert_close(d[1]->verdict.explanations[0].probability, d[0]->verdict.explanations[0].probability, 1e-3, 0);
-    for (int p = 0; p < 2; p++) {
-        assert_close(d[1]->parameters[p].value, d[0]->parameters[p].value, 1e-5, 0);
-        assert_close(d[1]->parameters[p].ci95[0], d[0]->parameters[p].ci95[0], 1e-5, 0);
-    }
-    assert_true(d[0]->parameters[0].ci95[1] - d[0]->parameters[0].ci95[0] > 0.036 * d[0]->parameters[0].value);
-    rotid_diagnosis_free(d[0]);
-    rotid_diagnosis_free(d[1]);
-}
-
 /* The numbers of the deck are tried, as nothing explains the data, and explain less than the shapes' own. */
 UNIT_TEST(the_numbers_of_the_deck_give_way_where_they_explain_less)
 {

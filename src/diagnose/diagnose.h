@@ -836,14 +836,9 @@ int evidence_open_model(struct pool *pool, const rotid_measured *measured, int n
 int evidence_of_model(const struct evidence_data *data, const struct model_prior *prior, int nown, const rotid_fit_result *fit,
                       int with_else, struct evidence *out);
 
-struct evidence_size { /* the amplitude of an item beside its prior where that is normal, its deviation before the data; of other
-                        */
-    double mean, std, prior; /* priors what the data alone say, 0 and infinity */
-};
-
-/* ln Z of the model of a scan with item i over that without it, at the place and width of the item; *size: NULL, or of its
- * amplitude. The drop of chi2 by the item that makes so much of it, or one beyond what its size can make. */
-double evidence_of_item(const struct scan *scan, const struct rotor *rotor, int i, struct evidence_size *size);
+/* ln Z of the model of a scan with item i over that without it, at the place and width of the item; the drop of chi2 by the item
+ * that makes so much of it, or one beyond what its size can make. */
+double evidence_of_item(const struct scan *scan, const struct rotor *rotor, int i);
 double evidence_drop_for(const struct scan *scan, const struct rotor *rotor, int i, double gain);
 
 /* ---------------------------------------------------------------------------------------------------------------- faults */

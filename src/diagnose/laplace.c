@@ -759,16 +759,14 @@ int evidence_of_fit(const struct evidence_data *d, const struct states *states, 
 
 /* ---- a column of the scan */
 
-/* along: minus the product of the column and the residual; *size: NULL, or of the amplitude beside its prior */
-static double gain_of_item(const struct scan *scan, const struct rotor *rotor, int i, double along, struct evidence_size *size_of)
+/* along: minus the product of the column and the residual */
+static double gain_of_item(const struct scan *scan, const struct rotor *rotor, int i, double along)
 {
     const struct scan_item *item = &scan->item[i];
     const struct scan_candidate *c = &scan->candidate[item->candidate];
     const struct cause_kind *cause = c->cause;
     const struct cause_parameter *size = &cause->parameter[cause->size];
-    struct evidence_size unused, *out = size_of ? size_of : &unused;
     double lower = 0, upper = 1, square = item->norm * item->norm;
-    *out = (struct evidence_size){item->amplitude, 0, INFINITY};
     if (!item->usable)
         return 0;
     if (!cause_has_free_size(cause, c->fixed))
@@ -789,17 +787,15 @@ static double gain_of_item(const struct scan *scan, const struct rotor *rotor, i
     double deviation = (size->prior == PRIOR_LOG_NORMAL ? size->scale * size->neutral : deviation_of(size, lower, upper)) /
                        fabs(item->unit),
            precision = square + 1 / (deviation * deviation), mean = along / precision, root = sqrt(precision);
-    *out = (struct evidence_size){fmin(fmax(mean, item->lower), item->upper), 1 / root, deviation};
     return along * mean / 2 - log(precision * deviation * deviation) / 2 +
            log_share((item->lower - mean) * root, (item->upper - mean) * root) -
            log_share(item->lower / deviation, item->upper / deviation);
 }
 
-double evidence_of_item(const struct scan *scan, const struct rotor *rotor, int i, struct evidence_size *size)
+double evidence_of_item(const struct scan *scan, const struct rotor *rotor, int i)
 {
     const struct scan_item *item = &scan->item[i];
-    return gain_of_item(scan, rotor, i, -item->norm * product_dot(scan->nrow, scan->column + (ptrdiff_t)i * scan->nrow, scan->r),
-                        size);
+    return gain_of_item(scan, rotor, i, -item->norm * product_dot(scan->nrow, scan->column + (ptrdiff_t)i * scan->nrow, scan->r));
 }
 
 #define STEPS 20 /* of a search that takes four */
@@ -812,7 +808,7 @@ double evidence_drop_for(const struct scan *scan, const struct rotor *rotor, int
     int is_known = !cause_has_free_size(c->cause, c->fixed);
     double drop = 2 * fmax(gain, 0), missing = INFINITY, most = item->norm * fmax(item->upper, -item->lower);
     for (int k = 0; k < STEPS && fabs(missing) > 1e-3 && item->usable && !is_known && sqrt(drop) < most; k++) {
-        missing = gain - gain_of_item(scan, rotor, i, scan_side(item) * item->norm * sqrt(drop), NULL);
+        missing = gain - gain_of_item(scan, rotor, i, scan_side(item) * item->norm * sqrt(drop));
         drop = fmax(0, drop + 2 * missing);
     }
     return drop;

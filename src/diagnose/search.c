@@ -20,7 +20,6 @@
 #define OTHER_SIZE 4.0  /* times: of one that spans decades */
 #define AT_END     1e-3 /* of the length */
 #define PROFILES   24   /* of causes in sets that are */
-#define SEEN       0.9  /* of the deviation of a size before the data: what they leave where they see it */
 #define OF_BEST    5.0  /* in ln P below the best one, at most */
 
 /* Whether a set stands elsewhere than the same causes found beside another one: its fit may have ended in another minimum. */
@@ -55,7 +54,6 @@ struct proposal {
                              the base, one cause less or two */
     struct scan *scan;
     double gain; /* of ln Z over the parent, linear */
-    int unseen;  /* no fit tells it from the parent */
     struct explanation set;
 };
 
@@ -77,7 +75,7 @@ static double gain_of(const struct states *states, const struct scan *scan, int 
     if (!c->count)
         return c->promise / 2;
     for (int i = c->first; i < c->first + c->count; i++) {
-        double one = evidence_of_item(scan, &states->state[c->home].job.rotor, i, NULL);
+        double one = evidence_of_item(scan, &states->state[c->home].job.rotor, i);
         sum = log_sum(sum, one);
         if (one > most) {
             most = one;
@@ -85,6 +83,13 @@ static double gain_of(const struct states *states, const struct scan *scan, int 
         }
     }
     return sum - log(c->count);
+}
+
+/* A cause whose columns lie within those of the unknowns: no fit tells it from what it was added to. */
+static int is_inseparable(const struct proposal *p)
+{
+    const struct scan_candidate *c = p->candidate < 0 ? NULL : &p->scan->candidate[p->candidate];
+    return c && c->count && c->best < 0;
 }
 
 /* A single cause that is fitted whatever it promises: a suspect of the user, or one with a far start. */
@@ -95,7 +100,7 @@ static int is_asked(const struct proposal *p)
 }
 
 /* Those that can be fitted before the others. */
-ORDER_BY(by_gain, struct proposal, it->unseen, -it->set.log_posterior)
+ORDER_BY(by_gain, struct proposal, is_inseparable(it), -it->set.log_posterior)
 
 /* Whether a cause in one state alone is the same in all: no other state in which it could act has modes that are fitted. */
 static int is_common(const struct engine *engine, const struct scan *scan, int index)
@@ -233,19 +238,17 @@ static int propose(struct engine *engine, struct posterior *p, int parent, struc
         int status = posterior_room(engine->pool, engine->nown, &one.set.evidence);
         if (status)
             return status;
-        struct evidence_size size = {0, 0, 0};
-        if (best >= 0)
-            (void)evidence_of_item(scan, &states->state[scan->candidate[i].home].job.rotor, best, &size);
-        one.unseen = scan->candidate[i].count && (scan->candidate[i].best < 0 || size.std > SEEN * size.prior);
+        const struct scan_item *item = best < 0 ? NULL : &scan->item[best];
         for (int q = 0; q < engine->nown; q++) {
-            double moved = best < 0 ? 0 : scan->shift[q + (ptrdiff_t)best * scan->nfree];
-            moved = isfinite(moved) ? moved : 0;
+            double shift = item && isfinite(scan->shift[q + (ptrdiff_t)best * scan->nfree])
+                               ? item->amplitude * scan->shift[q + (ptrdiff_t)best * scan->nfree]
+                               : 0;
             one.set.evidence.mean[q] =
-                fmin(fmax(from->evidence.mean[q] - size.mean * moved, states->bounds[q].lower), states->bounds[q].upper);
-            one.set.evidence.std[q] = hypot(from->evidence.std[q], size.std * moved);
+                fmin(fmax(from->evidence.mean[q] - shift, states->bounds[q].lower), states->bounds[q].upper);
+            one.set.evidence.std[q] = from->evidence.std[q];
         }
-        if (best >= 0)
-            one.set.member[one.set.nmember - 1].effect = scan_effect(scan, best, size.mean);
+        if (item)
+            one.set.member[one.set.nmember - 1].effect = scan_effect(scan, best, item->amplitude);
         if (!posterior_find(p, &one.set))
             proposal[(*count)++] = one;
     }
@@ -477,8 +480,8 @@ static int fit_singles(struct engine *engine, struct round_result *result, struc
         return status;
     qsort(proposal, (size_t)count, sizeof *proposal, by_gain);
     for (int i = 0; i < count; i++)
-        if (is_asked(&proposal[i]) ||
-            (!explained && kept < SINGLES && scan_best_drop(scan, proposal[i].candidate) >= WORTH && !proposal[i].unseen))
+        if (is_asked(&proposal[i]) || (!explained && kept < SINGLES && scan_best_drop(scan, proposal[i].candidate) >= WORTH &&
+                                       !is_inseparable(&proposal[i])))
             proposal[kept++] = proposal[i];
     return fit_proposals(engine, result, p, proposal, kept);
 }
@@ -521,7 +524,7 @@ static int expand(struct engine *engine, struct round_result *result, struct pos
     count = keep_first(proposal, count);
     double best = best_stated(p);
     while (fits < count && fits < (pass ? FITTED : 3 * FITTED) && proposal[fits].set.log_posterior > best - SEARCH_WITHIN &&
-           !proposal[fits].unseen)
+           !is_inseparable(&proposal[fits]))
         fits++;
     status = fit_proposals(engine, result, p, proposal, fits);
     for (int i = fits; i < count && !status; i++) {
