@@ -316,7 +316,7 @@ POOL_TEST(every_command_obeys_within_a_second)
         "cd %s && mkfifo slow blocked && { printf '" STEEL "' && awk 'BEGIN { "
         "for (i = 0; i < 60; i++) printf \"*SHAFT, NAME=s%%d, MATERIAL=steel\\n0.03, %%g, 0\\n\", i, 0.05 + 0.004 * (7 * "
         "i %% 13); print \"*SENSORS\"; for (i = 0; i < 20; i++) print i + 1 \", \" 0.09 * i; print \"*MODES\"; for (i = 1; "
-        "i < 13; i++) print i \", \" 60 * i * i; print \"*FIT, MODEL=SOLID\\n*NOISE, FREQUENCY=0.001, "
+        "i < 13; i++) print i \", \" 60 * i * i \", 0.01\"; print \"*FIT, MODEL=SOLID\\n*NOISE, FREQUENCY=0.001, "
         "SHAPE=0.02\\n*FRF, LOW=20, HIGH=3200, LINES=16001\\n*IDENTIFY\\ns0.E, 1e10, 4e11, 2e11\\ns30.E, 1e10, 4e11, "
         "2e11\" }'; } > solid && awk '/^    -1$/ && ++n == 2 { exit } { line[NR] = $0 } END { for (i = 1; i < 400; "
         "i++) { for (j = 1; j < NR; j++) if (line[j] ~ /NewModel/) printf \"    4         0    0         0   NewModel%%10d   1"
