@@ -250,6 +250,22 @@ static double dot(int n, const double *a, const double *b) /* over what both hav
     return sum;
 }
 
+/* The sensor of `before` nearest to one of `after` at its place, -1: none. shape [before->nsensor]: where it was measured; NULL:
+ * all */
+static int nearest_sensor(const struct rotor *before, const double *shape, const struct rotor *after, int i)
+{
+    double nearest = SAME_PLACE * rotor_length(after);
+    int found = -1;
+    for (int s = 0; s < before->nsensor; s++) {
+        double away = fabs(after->sensor[i].position - before->sensor[s].position);
+        if (away < nearest && (!shape || isfinite(shape[s]))) {
+            nearest = away;
+            found = s;
+        }
+    }
+    return found;
+}
+
 /* b, its noise and phi_b at the sensors of `after`, NaN where `before` has none at that place. */
 static void gather(const struct job *before, const struct identification *found, int j, const struct rotor *after, double *b,
                    double *std, double *phi)
@@ -257,19 +273,15 @@ static void gather(const struct job *before, const struct identification *found,
     const struct spectrum *spectrum = &found->spectrum;
     int nsensor = before->rotor.nsensor;
     ptrdiff_t measured = (ptrdiff_t)j * nsensor, mode = (ptrdiff_t)(found->compared.number[j] - 1) * spectrum->nmaster;
-    double absolute = largest_magnitude(nsensor, before->measurement.shape + measured);
+    const double *shape = before->measurement.shape + measured;
+    double absolute = largest_magnitude(nsensor, shape);
     for (int i = 0; i < after->nsensor; i++) {
-        double nearest = SAME_PLACE * rotor_length(after);
-        b[i] = NAN;
-        for (int s = 0; s < nsensor; s++) {
-            double away = fabs(after->sensor[i].position - before->rotor.sensor[s].position);
-            if (!(away < nearest) || !isfinite(before->measurement.shape[measured + s]))
-                continue;
-            nearest = away;
-            b[i] = before->measurement.shape[measured + s];
-            std[i] = before->measurement.shape_std[measured + s] * absolute;
-            phi[i] = spectrum->shape[mode + s];
-        }
+        int s = nearest_sensor(&before->rotor, shape, after, i);
+        b[i] = s < 0 ? (double)NAN : shape[s];
+        if (s < 0)
+            continue;
+        std[i] = before->measurement.shape_std[measured + s] * absolute;
+        phi[i] = spectrum->shape[mode + s];
     }
 }
 
@@ -333,13 +345,8 @@ static int partner(const struct identification *found, int number)
 static void warn_of_places(const struct rotor *before, const struct rotor *after, const char *name, struct message_list *notes)
 {
     int common = 0;
-    for (int i = 0; i < after->nsensor; i++) {
-        int s = 0;
-        while (s < before->nsensor &&
-               !(fabs(after->sensor[i].position - before->sensor[s].position) < SAME_PLACE * rotor_length(after)))
-            s++;
-        common += s < before->nsensor;
-    }
+    for (int i = 0; i < after->nsensor; i++)
+        common += nearest_sensor(before, NULL, after, i) >= 0;
     if (2 * common < (before->nsensor < after->nsensor ? before->nsensor : after->nsensor))
         message_warn(notes,
                      "%d of %d sensors of state %s have one of the other state within 1 %% of the length: shapes are compared at "

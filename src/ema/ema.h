@@ -273,7 +273,7 @@ struct modal_fit {
     int *singular;  /* [nchannel] nonzero: its columns depend on each other; chi2 is that of no model then */
 };
 
-/* For the channels from, ... of the band, on the lines line [nline] of it. Flat sigma (1 until modal_fit_noise) where the band
+/* For the channels from, ... of the band, on the lines line [nline] of it. Flat sigma (1 until refine_poles) where the band
  * has no variance. ROTID_OK or ROTID_ERROR_MEMORY. */
 int modal_fit_new(struct pool *pool, const struct ema_band *band, int nline, const int *line, int from, int nchannel, int nmode,
                   int threads, struct modal_fit *fit);

@@ -151,9 +151,9 @@ static int has_tables(const struct system *s)
     return any;
 }
 
-/* Modes that are not followed yet: those above `limit` that grow at one of the speeds, with tables of bearings those below it,
- * and what grows without whirl. Of a mode that grows in the upper half of the basis, which does not tell what becomes of it, the
- * frequency is kept. */
+/* Modes that are not followed yet: those below `limit` at the last speed, with tables of bearings at the others too, those that
+ * grow at any of them, and what grows without whirl. Of one above `limit` that grows in the upper half of the basis, which does
+ * not tell what becomes of it, the frequency is kept. */
 static int add_others(struct pool *pool, struct system *s, struct pair *all, double limit, struct tracks *t)
 {
     double *work = POOL_ARRAY(pool, double, (size_t)s->size *(size_t)s->size), real;

@@ -322,8 +322,9 @@ struct tracks {
     double beyond;     /* rad/s: the highest mode that grows in the upper half of the basis, and is not followed; 0: none */
 };
 
-/* Follows the modes up to Im lambda = limit at the first speed, those below at the last one that are not among them, and those of
- * the lower half of the basis that grow at any of the speeds. Statuses of pairs_all. */
+/* Follows the modes up to Im lambda = limit at the first speed, those below at the last one that are not among them, where
+ * bearings have tables at every second one between too, and those of the lower half of the basis that grow at any of the speeds.
+ * Statuses of pairs_all. */
 int tracks_make(struct pool *pool, struct system *system, int nspeed, const double *speed, double limit, struct tracks *tracks);
 
 struct pair *track_at(const struct tracks *tracks, int mode, int speed);

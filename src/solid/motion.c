@@ -68,7 +68,7 @@ int motion_of_section(struct pool *pool, const struct rotor *rotor, const struct
     if (!status)
         status = motion_new(pool, end - first, theta);
     for (int n = first; n + 2 < end && !status; n += 2)
-        for (int g = 0; g < 3 && carries(rotor, mesh, line, n); g++) {
+        for (int g = 0, points = carries(rotor, mesh, line, n) ? 3 : 0; g < points; g++) {
             edge_at(mesh, n, place[g], &r, &slope, shape);
             double w = weight[g] * slope * r;
             area += w;
