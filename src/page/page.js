@@ -992,17 +992,19 @@
   function speedsFigures(r) {
     const last = r.campbell[r.campbell.length - 1].speed_rpm;
     const rpm = { label: 'speed [rpm]', domain: [0, last] };
-    const numbers = [...new Set(r.campbell.flatMap((c) => c.modes.map((m) => m.mode)))].sort((a, b) => a - b).slice(0, 12);
     const of = (number, value) => r.campbell.map((c) => [c.speed_rpm, value(c.modes.find((m) => m.mode === number) || {})]).map(([x, v]) => [x, known(v) ? v : NaN]);
+    /* modes far above every line of excitation meet none: they would press the others to the axis; an unstable one stays */
+    const least = (number, value) => Math.min(...of(number, value).map(([, v]) => v).filter(known));
+    const lines = Math.max(last / 60 * r.harmonic, ...(r.excitation || []).map((e) => e.hz + e.per_revolution * last / 60));
+    const numbers = [...new Set(r.campbell.flatMap((c) => c.modes.map((m) => m.mode)))].sort((a, b) => a - b).filter((n) => least(n, (m) => m.frequency_hz) < 2 * lines || least(n, (m) => m.log_decrement) < 0).slice(0, 12);
     const whirl = (number) => { const seen = new Set(r.campbell.slice(1).map((c) => (c.modes.find((m) => m.mode === number) || {}).whirl).filter(Boolean)); return seen.size === 1 ? [...seen][0][0].toUpperCase() : 'M'; };
-    const top = Math.max(...numbers.flatMap((n) => of(n, (m) => m.frequency_hz).map(([, v]) => v)).filter(known)) * 1.05;
+    const top = Math.min(2 * lines, Math.max(lines, ...numbers.flatMap((n) => of(n, (m) => m.frequency_hz).map(([, v]) => v)).filter(known)) * 1.05);
     const at = (hz, turn) => (x) => hz + turn * x / 60;
     const excited = (r.excitation || []).filter((e) => !(e.hz === 0 && e.per_revolution === r.harmonic)).map((e) => ({ type: 'line', name: e.name, color: 'steel', width: 1, points: [0, last].map((x) => [x, at(e.hz, e.per_revolution)(x)]) }));
     const running = known(r.low_rpm) ? [{ type: 'rule', x: r.low_rpm }, { type: 'rule', x: r.high_rpm }] : [];
     const first = r.critical_speeds[0];
-    const damping = (n) => Math.min(...of(n, (m) => m.log_decrement).map(([, v]) => v).filter(known));
-    const leastDamped = [...numbers].sort((a, b) => damping(a) - damping(b)).slice(0, 2);
-    const list = [panels({ id: 'campbell', title: first ? `${r.critical_speeds.length} critical speeds up to ${num(last)} rpm, the first at ${num(first.speed_rpm)} rpm` : `No critical speed up to ${num(last)} rpm`, caption: 'Campbell diagram: frequencies in the fixed frame, F forward, B backward, M mixed; dots: critical speeds; shaded: 95 % intervals by the linear prediction, of the log decrement those of the two least damped modes; dashed lines: the running range.' }, [
+    const leastDamped = [...numbers].sort((a, b) => least(a, (m) => m.log_decrement) - least(b, (m) => m.log_decrement)).slice(0, 2);
+    const list = [panels({ id: 'campbell', title: first ? `${r.critical_speeds.length} critical speeds up to ${num(last)} rpm, the first at ${num(first.speed_rpm)} rpm` : `No critical speed up to ${num(last)} rpm`, caption: 'Campbell diagram: frequencies in the fixed frame, F forward, B backward, M mixed, up to twice the highest line of excitation; dots: critical speeds; shaded: 95 % intervals by the linear prediction, of the log decrement those of the two least damped modes; dashed lines: the running range.' }, [
       { height: 300, x: rpm, y: { label: `frequency [${HZ}]`, domain: [0, top] }, marks: [
         ...running,
         ...numbers.map((n, i) => ({ type: 'interval', area: true, color: COLORS[i % COLORS.length], legend: false, points: r.campbell.map((c) => [c.speed_rpm, c.modes.find((m) => m.mode === n)]).filter(([, m]) => m && known(m.ci95[0])).map(([x, m]) => [x, m.ci95[0], m.ci95[1]]) })).filter((mark) => mark.points.length > 1),
