@@ -295,6 +295,13 @@ test-long: all $(addprefix $(BUILD)/tests/test_,$(LONG) $(LONGER))
 bench bench-quick: all $(BUILD)/hide
 	@sh tools/bench/run $(@:bench-%=%) $(BUILD)
 
+# rotid_lm and MINPACK for callgrind
+$(BUILD)/lm_host: $(BUILD)/tools/bench/lm_host.o $(BUILD)/tests/nist_regression.o $(OBJECTS)
+	$(call tell,LD,$@)
+	$(QUIET)$(CC) $(CFLAGS) $(LDFLAGS) $^ $(shell pkg-config --libs cminpack) $(LIBRARY_LIBS) -o $@
+bench-check: $(if $(shell pkg-config --exists cminpack && echo yes),$(BUILD)/lm_host)
+$(BUILD)/tools/bench/lm_host.o: ALL_CFLAGS += -Itests
+
 # MINPACK driving the model of a deck, where its C version is installed; looks into the library, as tests do
 $(BUILD)/fit_host: $(BUILD)/tools/bench/fit_host.o $(ROOMS) $(OBJECTS)
 	$(call tell,LD,$@)

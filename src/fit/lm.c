@@ -31,6 +31,7 @@ struct lm {
     double objective;         /* half the square of r in units */
     double *trial, *trial_r, *trial_jacobian;
     double *step, *gradient; /* in units */
+    double *column;          /* norms of the Jacobian that was asked for last */
     double *norm, *scale, *scratch, *work;
     double *floor; /* of the damping: parts of the columns of J too small to tell from its rounding */
     rotid_lm_result *result;
@@ -44,7 +45,7 @@ struct lm {
 
 size_t rotid_lm_workspace(int m, int n)
 {
-    return m < 1 || n < 1 ? 0 : 7 * (size_t)n + 2 * (size_t)m + (size_t)m * (size_t)n + least_squares_workspace(m, n);
+    return m < 1 || n < 1 ? 0 : 8 * (size_t)n + 2 * (size_t)m + (size_t)m * (size_t)n + least_squares_workspace(m, n);
 }
 
 /* unit, r in units and half its square, behind a change of r; the radius goes along. */
@@ -72,22 +73,6 @@ static double length_of_x(struct lm *lm)
     return least_squares_length(lm->n, lm->scale, lm->scratch);
 }
 
-/* Largest cosine between r and a column of J: with the norm of the column here, not with D: where J has shrunk by 1e10 D would
- * end the iteration. */
-static double largest_cosine(const struct lm *lm, const double *r, const double *jacobian)
-{
-    double largest = 0, length = lm->unit * least_squares_length(lm->m, NULL, r);
-    for (int j = 0; j < lm->n && length > 0; j++) {
-        const double *column = jacobian + (ptrdiff_t)j * lm->m;
-        double norm = least_squares_length(lm->m, NULL, column), product = 0;
-        for (int i = 0; i < lm->m; i++)
-            product += column[i] * (lm->unit * r[i]);
-        if (norm > 0)
-            largest = fmax(largest, fabs(product) / norm / length);
-    }
-    return largest;
-}
-
 /* Why there is nothing to start from, unless the callback has said more. */
 static int callback_failed(struct lm *lm, const char *asked)
 {
@@ -96,41 +81,52 @@ static int callback_failed(struct lm *lm, const char *asked)
                                                      "residual returned %d when asked for %s, expected 0", lm->returned, asked);
 }
 
-/* The Jacobian at the point whose residual was computed last. Nonzero where no usable Jacobian exists. */
+/* The Jacobian at the point whose residual was computed last, the norms of its columns in `column`. Nonzero where no usable one
+ * exists. */
 static int ask_jacobian(struct lm *lm, const double *x, double *jacobian)
 {
     lm->result->jacobians++;
     lm->returned = lm->residual(lm->user, lm->m, lm->n, x, NULL, jacobian);
     if (lm->returned)
         return ROTID_ERROR_CALLBACK;
-    for (int j = 0; j < lm->n; j++)
-        if (!isfinite(least_squares_length(lm->m, NULL, jacobian + (ptrdiff_t)j * lm->m)))
+    for (int j = 0; j < lm->n; j++) {
+        lm->column[j] = least_squares_length(lm->m, NULL, jacobian + (ptrdiff_t)j * lm->m);
+        if (!isfinite(lm->column[j]))
             return ROTID_ERROR_FINITE;
+    }
     return ROTID_OK;
+}
+
+/* gradient [n] = J'r in units of the Jacobian asked for last, r [m] in units; returns the largest cosine between r and a column
+ * of J: with the norm of the column here, not with D: where J has shrunk by 1e10 D would end the iteration. */
+static double differentiate(const struct lm *lm, const double *r, const double *jacobian, double *gradient)
+{
+    double largest = 0, length = least_squares_length(lm->m, NULL, r);
+    for (int j = 0; j < lm->n; j++) {
+        gradient[j] = product_dot(lm->m, jacobian + (ptrdiff_t)j * lm->m, r);
+        if (lm->column[j] > 0 && length > 0)
+            largest = fmax(largest, fabs(gradient[j]) / lm->column[j] / length);
+    }
+    return largest;
 }
 
 /* Gradient J'r, scale D = largest column norms so far, cosine, of the best point. Returns whether J has a column. */
 static int linearise(struct lm *lm)
 {
     double length = sqrt(2 * lm->objective), largest = 0, size = 0;
+    lm->result->cosine = differentiate(lm, lm->scaled, lm->jacobian, lm->gradient);
     for (int j = 0; j < lm->n; j++) {
-        const double *column = lm->jacobian + (ptrdiff_t)j * lm->m;
-        lm->floor[j] = least_squares_length(lm->m, NULL, column);
-        lm->gradient[j] = 0;
-        for (int i = 0; i < lm->m; i++)
-            lm->gradient[j] += column[i] * lm->scaled[i];
-        lm->norm[j] = fmax(lm->norm[j], lm->floor[j]);
+        lm->norm[j] = fmax(lm->norm[j], lm->column[j]);
         largest = fmax(largest, lm->norm[j]);
     }
     for (int j = 0; j < lm->n; j++) { /* where a column has been zero so far any scale keeps the system regular */
         lm->scale[j] = lm->norm[j] > 0 ? lm->norm[j] : largest > 0 ? largest : 1;
-        size = fmax(size, lm->floor[j] / lm->scale[j]);
+        size = fmax(size, lm->column[j] / lm->scale[j]);
     }
-    lm->result->cosine = largest_cosine(lm, lm->r, lm->jacobian);
     lm->size = size > 0 ? fmax(size, SHRUNK) : 1;
     double part = sqrt(fmax(REGULAR, length > 0 ? NOISE * length / fmax(length, length_of_x(lm)) : 0));
     for (int j = 0; j < lm->n; j++)
-        lm->floor[j] *= part;
+        lm->floor[j] = part * lm->column[j];
     return size > 0;
 }
 
@@ -278,7 +274,9 @@ static int descend(struct lm *lm)
              * the same point for line searches): the step is then judged by the gradient. */
             double before = lm->result->cosine, now;
             refused = ask_jacobian(lm, lm->trial, lm->trial_jacobian);
-            now = refused ? INFINITY : largest_cosine(lm, lm->trial_r, lm->trial_jacobian);
+            for (int i = 0; i < lm->m; i++)
+                lm->work[i] = lm->unit * lm->trial_r[i];
+            now = refused ? INFINITY : differentiate(lm, lm->work, lm->trial_jacobian, lm->scratch);
             if (now < before) {
                 if (now < before / 3)
                     lm->mu = fmax(lm->mu / FALL, MU_LEAST);
@@ -412,7 +410,8 @@ static int run(int m, int n, rotid_residual residual, void *user, const rotid_lm
     lm.scale = lm.norm + n;
     lm.floor = lm.scale + n;
     lm.scratch = lm.floor + n;
-    lm.scaled = lm.scratch + n;
+    lm.column = lm.scratch + n;
+    lm.scaled = lm.column + n;
     lm.trial_r = lm.scaled + m;
     lm.trial_jacobian = lm.trial_r + m;
     lm.work = lm.trial_jacobian + (size_t)m * (size_t)n;
