@@ -314,6 +314,29 @@ UNIT_TEST(modes_that_only_exchanged_channels_exchange_are_not_accused)
     close_run(&r);
 }
 
+/* One reading less, and the exchanged channels were two dead ones. */
+UNIT_TEST(a_missing_reading_hides_no_exchanged_channels)
+{
+    struct run r;
+    diagnose(&r, changed_deck(ROTID_SOURCE_DIR "/tests/data/exchanged_channels.inp", "2, 0.35230132\n", "", ""));
+    assert_int_equal(r.d.result.ndata_findings, 1);
+    assert_string_equal(r.d.result.data_findings[0].id, "sensor_swap");
+    close_run(&r);
+}
+
+/* Nor a copy, where the channel that is copied has none. */
+UNIT_TEST(a_missing_reading_hides_no_copy)
+{
+    struct run r;
+    diagnose(&r, ROTID_SOURCE_DIR "/tests/data/copied_channel.inp");
+    assert_int_equal(r.d.result.ndata_findings, 1);
+    assert_string_equal(r.d.result.data_findings[0].id, "duplicate_channel");
+    assert_int_equal(r.d.result.data_findings[0].nsensors, 2);
+    assert_int_equal(r.d.result.data_findings[0].sensors[0], 16);
+    assert_int_equal(r.d.result.data_findings[0].sensors[1], 12);
+    close_run(&r);
+}
+
 /* At moduli that are off by a tenth the model's modes 6 and 7 have each other's shapes: fits with that pairing end between them,
  * and a gradient in the core beside the density came out with 99.7 %. Ten seconds: only with ROTID_LONG (make test-long). */
 UNIT_TEST(a_mode_that_shapes_pair_wrongly_has_its_number)

@@ -15,6 +15,7 @@ static const struct {
     {"sensor_gain:sensor=23,gain=1.4", "sensor_gain", {23}, 1.4, 0.14, "sensor 23 reads 1."},
     {"sensor_sign:sensor=5", "sensor_sign", {5}, 0, 0, "sensor 5 has the wrong sign"},
     {"sensor_swap:sensors=12+13", "sensor_swap", {12, 13}, 0, 0, "sensors 12 and 13 are exchanged"},
+    {"sensor_position:sensor=40,shift=-0.3", "sensor_position", {40}, -0.3, 0.015, "further left than stated"},
     {"sensor_position:sensor=30,shift=0.06", "sensor_position", {30}, 0.06, 0.015, "mm further right than stated"},
     {"sensor_position:sensor=30,shift=-0.06", "sensor_position", {30}, -0.06, 0.015, "mm further left than stated"},
     {"sensor_line:flip=1", "sensor_line", {0}, 0, 0, "count from the other end; all of them"},

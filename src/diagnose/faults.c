@@ -19,11 +19,18 @@
 #define POINTS        32   /* of a log-uniform deviation */
 #define STEPS         4    /* of Gauss-Newton in the numbers of a fault */
 #define STEP_DONE     0.1  /* standard deviations */
+#define PLACES        64   /* of a sensor that is far from where it is stated */
 #define DIFFERENCE    1e-3 /* of the length: step of a slope */
 #define LEAST_SHIFT   5e-4 /* m: nobody glues a sensor more closely than that */
 #define NORMAL_95     1.96
 
 /* ---- the readings of a state beside a fit */
+
+struct shape_data { /* deflections of a model along the axis */
+    int naxis;
+    const double *axis_z;     /* [naxis] nodes of the model, increasing [m] */
+    const double *axis_shape; /* [naxis * nmode] deflection of the model's modes there */
+};
 
 struct channels {
     const struct states *states;
@@ -31,12 +38,8 @@ struct channels {
     int state, nsensor, nblock, first; /* its blocks */
     int *row;                          /* [nsensor * nblock] of a reading, -1: none */
     double *u, *slope;                 /* [nrow] u, du/dz */
-};
-
-struct shape_data { /* deflections of a model along the axis */
-    int naxis;
-    const double *axis_z;     /* [naxis] nodes of the model, increasing [m] */
-    const double *axis_shape; /* [naxis * nmode] deflection of the model's modes there */
+    struct shape_data data;
+    int *mode; /* [nblock] of data */
 };
 
 /* Shapes of the fitted model on the nodes of the axis, each times its best scale to the measured one. */
@@ -90,7 +93,6 @@ static int open_channels(struct pool *pool, const struct states *states, int sta
     const struct job *job = &states->state[state].job;
     int n = job->rotor.nsensor, mode = states_modes(states, state);
     struct columns columns;
-    struct shape_data data;
     double length = rotor_length(&job->rotor), *x = state_values(pool, &states->state[state], fit->x);
     *out = (struct channels){.states = states, .d = d, .state = state};
     while (out->first < d->nblock && d->block[out->first].state != state)
@@ -101,10 +103,11 @@ static int open_channels(struct pool *pool, const struct states *states, int sta
         return ROTID_OK;
     out->row = POOL_ARRAY(pool, int, (size_t)n *(size_t)out->nblock);
     out->u = POOL_ARRAY(pool, double, 2 * (size_t)d->nrow);
-    int status =
-        x && out->row && out->u ? columns_open(pool, job, number + mode, holdout + mode, NULL, x, &columns) : ROTID_ERROR_MEMORY;
+    out->mode = POOL_ARRAY(pool, int, out->nblock);
+    int status = x && out->row && out->u && out->mode ? columns_open(pool, job, number + mode, holdout + mode, NULL, x, &columns)
+                                                      : ROTID_ERROR_MEMORY;
     if (!status)
-        status = axis_shapes(pool, &columns, &data);
+        status = axis_shapes(pool, &columns, &out->data);
     if (status)
         return status;
     out->nsensor = n;
@@ -116,12 +119,13 @@ static int open_channels(struct pool *pool, const struct states *states, int sta
         int m = 0;
         while (m + 1 < columns.nmode && columns.mode[m].k != block->mode)
             m++;
+        out->mode[b] = m;
         for (int i = 0; i < block->count; i++) {
             int row = block->row + i, s = block->sensor[i];
             double z = job->rotor.sensor[s].position, h = DIFFERENCE * length;
             out->row[s + (ptrdiff_t)b * n] = row;
             out->u[row] = fit->r[row] + d->measured[row];
-            out->slope[row] = (deflection(&data, m, z + h) - deflection(&data, m, z - h)) / (2 * h) / d->noise[row];
+            out->slope[row] = (deflection(&out->data, m, z + h) - deflection(&out->data, m, z - h)) / (2 * h) / d->noise[row];
         }
     }
     return ROTID_OK;
@@ -261,14 +265,48 @@ static struct column of_sensor(const struct channels *c, int s, const double *va
     return out;
 }
 
+/* What sensor s would read at z more than where it is stated. */
+static struct column of_place(const struct channels *c, int s, double z)
+{
+    double stated = c->states->state[c->state].job.rotor.sensor[s].position;
+    struct column out = {0};
+    for (int b = 0; b < c->nblock && b < FAULT_MOST_MODES; b++) {
+        int row = c->row[s + (ptrdiff_t)b * c->nsensor];
+        if (row >= 0)
+            add_row(&out, row,
+                    (deflection(&c->data, c->mode[b], z) - deflection(&c->data, c->mode[b], stated)) / c->d->noise[row]);
+    }
+    return out;
+}
+
+/* Along its slope, or at the place of a grid that promises most: far from where it is stated a slope leads nowhere. */
+static int offer_position(struct fault_list *list, int s)
+{
+    const struct channels *c = list->channels;
+    const struct rotor *rotor = &c->states->state[c->state].job.rotor;
+    struct column slope = of_sensor(c, s, c->slope, 1);
+    const struct cause_parameter *prior = catalogue_find("sensor_position")->parameter;
+    double length = rotor_length(rotor), deviation = length * prior->scale, shift, along,
+           gross = log(prior->gross * prior->scale), best = gain_of_size(list->scan, &slope, deviation, &shift),
+           width = log1p(project(list->scan, &slope, &along) * deviation * deviation) / 2;
+    for (int i = 0; i <= PLACES; i++) {
+        double there = length * i / PLACES - rotor->sensor[s].position;
+        struct column at = of_place(c, s, length * i / PLACES);
+        double gain = gain_of_fixed(list->scan, &at) + fmax(-there * there / (2 * deviation * deviation), gross) - width;
+        if (gain > best) {
+            best = gain;
+            shift = there;
+        }
+    }
+    return fabs(shift) > LEAST_SHIFT ? offer(list, "sensor_position", s, -1, &shift, NULL, 0, best) : ROTID_OK;
+}
+
 static int offer_single(struct fault_list *list, int s)
 {
     const struct channels *c = list->channels;
     const struct evidence_data *d = c->d;
-    double length = rotor_length(&c->states->state[c->state].job.rotor), amplitude, rms = 0, reading[FAULT_MOST_MODES];
-    double gain_deviation = catalogue_find("sensor_gain")->parameter[0].scale,
-           shift_deviation = length * catalogue_find("sensor_position")->parameter[0].scale;
-    struct column own = of_sensor(c, s, c->u, 1), place = of_sensor(c, s, c->slope, 1), turned = of_sensor(c, s, c->u, -2);
+    double amplitude, rms = 0, reading[FAULT_MOST_MODES], gain_deviation = catalogue_find("sensor_gain")->parameter[0].scale;
+    struct column own = of_sensor(c, s, c->u, 1), turned = of_sensor(c, s, c->u, -2);
     if (!own.count)
         return ROTID_OK;
     (void)gain_of_size(list->scan, &own, 10, &amplitude);
@@ -281,9 +319,8 @@ static int offer_single(struct fault_list *list, int s)
     }
     if (!status)
         status = offer(list, "sensor_sign", s, -1, NULL, NULL, 0, gain_of_fixed(list->scan, &turned));
-    double gain = gain_of_size(list->scan, &place, shift_deviation, &amplitude);
-    if (!status && fabs(amplitude) > LEAST_SHIFT)
-        status = offer(list, "sensor_position", s, -1, &amplitude, NULL, 0, gain);
+    if (!status)
+        status = offer_position(list, s);
     double without = gain_without(list->pool, list->scan, &own);
     for (int i = 0; i < own.count; i++)
         reading[i] = d->measured[own.row[i]];
@@ -292,19 +329,21 @@ static int offer_single(struct fault_list *list, int s)
     double outside = log_scatter(own.count, reading, 1, fmax(2, rms));
     if (!status)
         status = offer(list, "duplicate_channel", s, -1, NULL, NULL, outside, without + outside);
-    for (int t = 0; t < c->nsensor && !status; t++) { /* a copy of t */
-        double apart[FAULT_MOST_MODES], most = 0;
-        int count = 0;
+    for (int t = 0; t < c->nsensor && !status; t++) { /* a copy of t, and nothing of the rotor where t has no reading */
+        double apart[FAULT_MOST_MODES], most_apart = 0;
+        int count = 0, alone = 0;
         for (int b = 0; b < c->nblock && b < FAULT_MOST_MODES; b++) {
             int mine = c->row[s + (ptrdiff_t)b * c->nsensor], other = c->row[t + (ptrdiff_t)b * c->nsensor];
+            if (mine >= 0 && other < 0)
+                reading[alone++] = d->measured[mine];
             if (mine < 0 || other < 0)
                 continue;
             apart[count] = d->measured[mine] - d->measured[other] * d->noise[other] / d->noise[mine];
-            most = fmax(most, fabs(apart[count++]));
+            most_apart = fmax(most_apart, fabs(apart[count++]));
         }
-        if (t == s || count < own.count || most > MOST_COPY)
+        if (t == s || !count || (alone && count < 2) || most_apart > MOST_COPY)
             continue;
-        outside = log_scatter(count, apart, LEAST_COPY, MOST_COPY);
+        outside = log_scatter(count, apart, LEAST_COPY, MOST_COPY) + (alone ? log_scatter(alone, reading, 1, fmax(2, rms)) : 0);
         status = offer(list, "duplicate_channel", s, t, NULL, NULL, outside, without + outside);
     }
     return status;
@@ -317,9 +356,7 @@ static int offer_swap(struct fault_list *list, int s, int t)
     struct column both = {0};
     for (int b = 0; b < c->nblock && b < FAULT_MOST_MODES; b++) {
         int one = c->row[s + (ptrdiff_t)b * c->nsensor], two = c->row[t + (ptrdiff_t)b * c->nsensor];
-        if ((one < 0) != (two < 0))
-            return ROTID_OK;
-        if (one < 0)
+        if (one < 0 || two < 0) /* the fit sees it there */
             continue;
         double ratio = c->d->noise[two] / c->d->noise[one];
         add_row(&both, one, c->u[two] * ratio - c->u[one]);

@@ -41,6 +41,8 @@ static double draw_value(const struct cause_kind *cause, int p, double lower, do
     }
     if (prior->prior == PRIOR_LOG_NORMAL)
         return exp(draw_normal(random, log(neutral), scale, log(lower), log(upper)));
+    if (prior->gross > 0 && hide_between(random, 0, 1) < prior->gross)
+        return hide_between(random, lower, upper);
     if (prior->prior == PRIOR_SHARE)
         scale = scale < 0 ? -scale * below : scale * fmax(below, above);
     return draw_normal(random, neutral, scale, lower, upper);

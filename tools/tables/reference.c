@@ -109,6 +109,8 @@ static void put_prior(FILE *out, const struct cause_kind *cause, int p, const st
         (void)fprintf(out, "lnN(%g, %g)", parameter->neutral, parameter->scale);
     else
         (void)fprintf(out, "lnU(%g)", parameter->scale);
+    if (parameter->gross > 0)
+        (void)fprintf(out, ", %g of it U", parameter->gross);
 }
 
 /* Without the parameters that no explanation has: of numbers, of pairing and of the level of the noise. */

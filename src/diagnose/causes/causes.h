@@ -55,6 +55,7 @@ struct cause_parameter {
     int one_sided;  /* 1: physical only above neutral, -1: only below, 0: both */
     enum prior_kind prior;
     double scale;
+    double gross; /* of PRIOR_SHARE: this part is uniform between the bounds: a wrong number, no error of measuring */
 };
 #define PRIOR_NORMAL(deviation)    .prior = PRIOR_GAUSSIAN, .scale = (deviation)
 #define PRIOR_OF_BOUND(share)      .prior = PRIOR_SHARE, .scale = (share)

@@ -71,7 +71,7 @@ const struct cause_kind cause_sensor_position = {
     .id = "sensor_position",
     .class = CAUSE_DATA,
     .target = TARGET_SENSOR,
-    .parameter = {{.neutral = 0, .typical = 0.02, PRIOR_OF_BOUND(0.02)}}, /* of the length */
+    .parameter = {{.neutral = 0, .typical = 0.02, PRIOR_OF_BOUND(0.02), .gross = 0.1}}, /* of the length */
     NO_PLACE,
     .bounds = bounds,
     .value = {"shift", "m"},
