@@ -142,8 +142,7 @@ int static_loads(struct pool *pool, struct system *s, double speed, rotid_speeds
     for (int j = 0; j < s->columns; j++)
         q[s->plane + j] = -GRAVITY * s->weight[j];
     system_at(s, speed);
-    for (ptrdiff_t i = 0; i < (ptrdiff_t)s->size * s->size; i++)
-        s->d[i] = s->stiff[i];
+    system_dynamic(s, 0, speed > 0 ? -1 : 0, s->d);
     if (complex_factor(s->size, s->d, s->pivot))
         return ROTID_ERROR_STIFFNESS;
     complex_solve(s->size, 0, s->d, s->pivot, q);
