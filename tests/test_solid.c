@@ -308,7 +308,7 @@ POOL_TEST(derivatives_agree_with_differences)
                                             {.name = "clamp", .target = 0, .value = {3e-6, 2e-7}},
                                             {.name = "wide", .target = -1, .variant = 1, .value = {4, 1.07, 0.21}},
                                             {.name = "inert", .target = 0, .value = {-0.2}},
-                                            {.name = "hubs", .target = -1, .value = {0.6}},
+                                            {.name = "hubs", .target = -1, .value = {0.57}},
                                             {.name = "slip", .target = 3, .value = {0.08}}};
     static const char *const kinds[] = {
         "stiffness_local", "added_mass",    "joint",         "stiffness_gradient", "stiffness_profile", "density",

@@ -330,6 +330,7 @@ void discrete_member_deflection(const struct discrete *discrete, int i, const do
 #define OF_FINER_TWIST 0.1871     /* 1/(4^(4/3) - 1) */
 #define OF_SMOOTH      (1.0 / 15) /* 1/(2^4 - 1): a frequency by elements of the second order, all twice as large */
 #define OF_EDGE        (1.0 / 3)  /* 1/(2^2 - 1): where the zone at an end, r sqrt(G/E) long, is shorter than an element */
+#define OF_BORE        6.0        /* times that, at most: beside graded elements (8 bodies, bores of 1 to 20 %) 0.5 to 5.3 */
 #define RESOLVED       10.0 /* E/G up to which it is not; beside spectral elements (65 bodies) 0.13 at 20, 0.2 to 0.4 beyond 60 */
 #define COMPRESSIBLE                                                                                                             \
     4.0 /* C11/C66 up to which elements follow a change of volume; beside spectral elements (24 bodies) they leave 1.1 to 2.2    \
@@ -378,7 +379,8 @@ struct mesh_limit discrete_mesh_limit(enum discretisation as, const struct rotor
     int twist = as == AS_SOLID_TORSION;
     if (!outline_has_corners(rotor)) {
         double share = fmin(OF_SMOOTH * largest_share(rotor, twist), OF_EDGE);
-        double most = twist ? share : fmax(share, fmin(OF_SMOOTH * contrast(rotor), OF_INTERFACE));
+        double bore = outline_has_small_bore(rotor) ? OF_BORE : 1;
+        double most = twist ? share : fmax(bore * share, fmin(OF_SMOOTH * contrast(rotor), OF_INTERFACE));
         return (struct mesh_limit){COARSE_MESH, share, 1, 4, share, most / share};
     }
     double more = twist ? 1 : fmax(largest_share(rotor, twist), as == AS_SOLID ? pow(contrast(rotor), 0.25) : 1);

@@ -22,16 +22,16 @@ static int stops_merge(int nstop, struct stop *stop, double tolerance)
     return count;
 }
 
-/* Elements that double from a graded stop are as long, at a distance, as that and their first one: other stops go on with them.
- */
+/* Elements that double from a graded stop are as long, at a distance, as that and their first one: other stops go on with them,
+ * unless they have shorter ones. */
 static void stops_go_on(int nstop, struct stop *stop)
 {
     for (int i = 0; i < nstop; i++) {
-        double size = INFINITY;
-        for (int j = 0; j < nstop && stop[i].fine == 0; j++)
+        double size = stop[i].fine > 0 ? stop[i].fine : (double)INFINITY;
+        for (int j = 0; j < nstop; j++)
             if (stop[j].fine > 0)
                 size = fmin(size, stop[j].fine + fabs(stop[i].at - stop[j].at));
-        stop[i].fine = isfinite(size) ? size : stop[i].fine;
+        stop[i].fine = isfinite(size) ? size : 0;
     }
 }
 
@@ -85,18 +85,20 @@ static int lines_graded(struct pool *pool, int nstop, const struct stop *stop, i
     return ROTID_OK;
 }
 
-#define SAME      1e-9 /* of the largest radius: radii that are one */
-#define CORNER    0.05 /* of what both sides of it share, a radius or a wall: elements; leaves 0.03 % in frequencies */
-#define NARROWEST 1e4  /* radius over that wall: beyond, rounding is larger than what it bends */
-#define LARGEST   4    /* a quarter of the radius, or of the length of a disc */
-#define COARSE    6    /* times CORNER in the coarse mesh: leaves 0.1 to 0.2 %, of which a tenth follows E and G */
-#define THIN_WALL 4    /* radius over thickness from which on a wall is thin */
-#define SLICES    50   /* or the longer of length and radius over this */
-#define THINNEST  200  /* radius over the thickness of a flange, or length over the radius of a shaft, whose waves are resolved */
-#define LONGEST   2    /* times the shorter one: elements that are longer lock in bending */
-#define AT_LINE   0.01 /* of a slice: a sensor is taken to be at the line */
-#define MOVES     0.35 /* of the slices beside it: how far a line moves to a sensor */
-#define INTERFACE 0.1  /* of the radius: elements at a plain interface of two groups, where a joint may be */
+#define SAME       1e-9 /* of the largest radius: radii that are one */
+#define CORNER     0.05 /* of what both sides of it share, a radius or a wall: elements; leaves 0.03 % in frequencies */
+#define NARROWEST  1e4  /* radius over that wall: beyond, rounding is larger than what it bends */
+#define LARGEST    4    /* a quarter of the radius, or of the length of a disc */
+#define COARSE     6    /* times CORNER in the coarse mesh: leaves 0.1 to 0.2 %, of which a tenth follows E and G */
+#define THIN_WALL  4    /* radius over thickness from which on a wall is thin */
+#define SLICES     50   /* or the longer of length and radius over this */
+#define THINNEST   200 /* radius over the thickness of a flange, or length over the radius of a shaft, whose waves are resolved */
+#define LONGEST    2   /* times the shorter one: elements that are longer lock in bending */
+#define AT_LINE    0.01 /* of a slice: a sensor is taken to be at the line */
+#define MOVES      0.35 /* of the slices beside it: how far a line moves to a sensor */
+#define SMALL_BORE 0.02 /* of the largest element: half of a bore that counts no more */
+#define INTERFACE                                                                                                                \
+    0.1 /* of the radius: elements at a plain interface of two groups, where a joint may be, and where a moment enters */
 
 static double outline_inner(const struct rotor *rotor, int s)
 {
@@ -267,6 +269,22 @@ static double shortest_part(const struct rotor *rotor, double r)
     return shortest;
 }
 
+/* Elements at the inside of a section, 0: they are as large as elsewhere. Motions go as 1/r beside a bore that is smaller. */
+static double bore_size(const struct rotor *rotor, int refine, double inner, double largest)
+{
+    return inner > 0 && inner < largest ? fmax(refined(rotor, refine, 0, inner / 2), SMALL_BORE * largest) : 0;
+}
+
+int outline_has_small_bore(const struct rotor *rotor)
+{
+    const struct solid_rule rule = {0};
+    double largest = largest_size(rotor, &rule, 1, 0, largest_radius(rotor), rotor_length(rotor));
+    int s = 0;
+    while (s < rotor->nsegment && !(bore_size(rotor, 1, outline_inner(rotor, s), largest) > 0))
+        s++;
+    return s < rotor->nsegment;
+}
+
 static int radial(struct pool *pool, const struct rotor *rotor, const struct solid_rule *rule, int refine, int *nr, double **r)
 {
     double largest = largest_size(rotor, rule, refine, 0, largest_radius(rotor), rotor_length(rotor)), from, to;
@@ -277,7 +295,7 @@ static int radial(struct pool *pool, const struct rotor *rotor, const struct sol
     for (int s = 0; s < rotor->nsegment; s++) {
         double a = outline_outer(rotor, s), c = outline_inner(rotor, s);
         stop[n++] = (struct stop){a, 0, largest};
-        stop[n++] = (struct stop){c, 0, largest};
+        stop[n++] = (struct stop){c, bore_size(rotor, refine, c, largest), largest};
         stop[n++] = (struct stop){rotor->segment[s].inner / 2, 0, largest};
         stop[n++] = (struct stop){own_outer(&rotor->segment[s]), 0, largest};
         for (int side = 0; side < 2; side++)
@@ -307,6 +325,16 @@ static int radial(struct pool *pool, const struct rotor *rotor, const struct sol
     return lines_graded(pool, n, stop, multiple_of(rotor, refine), nr, r);
 }
 
+/* Elements where a disk or a spring brings a moment into the section at z: its stresses are not those of bending within about a
+ * radius. What they leave the coarse mesh tells, which has none there. */
+static double moment_size(const struct rotor *rotor, int refine, double z)
+{
+    int s = 0;
+    for (double end = rotor->segment[0].length; s + 1 < rotor->nsegment && end < z; end += rotor->segment[s].length)
+        s++;
+    return refine ? INTERFACE * outline_outer(rotor, s) : 0;
+}
+
 static int axial_stops(struct pool *pool, const struct rotor *rotor, const struct solid_rule *rule, int refine, int *nstop,
                        struct stop **stops)
 {
@@ -327,11 +355,14 @@ static int axial_stops(struct pool *pool, const struct rotor *rotor, const struc
         stop[n++] = (struct stop){end, size, largest};
         smallest = size > 0 ? fmin(smallest, size) : smallest;
     }
-    for (int i = 0; i < rotor->nspring; i++)
-        stop[n++] = (struct stop){rotor->spring[i].position, 0, largest};
+    for (int i = 0; i < rotor->nspring; i++) {
+        const struct spring *spring = &rotor->spring[i];
+        double size = spring->rotational > 0 ? moment_size(rotor, refine, spring->position) : 0;
+        stop[n++] = (struct stop){spring->position, size, largest};
+    }
     for (int i = 0; i < rotor->ndisk; i++) {
-        double from, to;
-        stop[n++] = (struct stop){rotor->disk[i].position, 0, largest};
+        double from, to, at = rotor->disk[i].position;
+        stop[n++] = (struct stop){at, moment_size(rotor, refine, at), largest}; /* a cause may add inertia to any */
         if (rotor->disk[i].hub_length > 0) {
             rotor_hub_span(rotor, i, &from, &to);
             stop[n++] = (struct stop){from, 0, largest};

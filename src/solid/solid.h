@@ -402,6 +402,9 @@ double outline_slenderness(const struct rotor *rotor);
 /* Whether any end of a segment has one: errors fall slower there than elsewhere. */
 int outline_has_corners(const struct rotor *rotor);
 
+/* Whether a section has a bore that is smaller than the largest elements: those beside it are not all halved by a finer mesh. */
+int outline_has_small_bore(const struct rotor *rotor);
+
 /* Lines of constant r, x [*nr], and of constant z, z [*nz] with the segment [*nz - 1] of each slice. ROTID_OK or
  * ROTID_ERROR_MEMORY. */
 int outline_lines(struct pool *pool, const struct rotor *rotor, const struct solid_rule *rule, int refine, int *nr, double **r,
