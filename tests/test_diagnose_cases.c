@@ -337,6 +337,17 @@ UNIT_TEST(a_missing_reading_hides_no_copy)
     close_run(&r);
 }
 
+/* Two measured modes of one shape are one that was measured twice, unless the model has two there as well. */
+UNIT_TEST(modes_that_the_model_has_twice_are_not_left_out)
+{
+    struct run r;
+    diagnose(&r, ROTID_SOURCE_DIR "/tests/data/alike_modes.inp");
+    assert_kind(&r, ROTID_ADEQUATE);
+    assert_int_equal(r.d.result.ndata_findings, 0);
+    assert_int_equal(r.d.result.nmodes_standardised, 6);
+    close_run(&r);
+}
+
 /* At moduli that are off by a tenth the model's modes 6 and 7 have each other's shapes: fits with that pairing end between them,
  * and a gradient in the core beside the density came out with 99.7 %. Ten seconds: only with ROTID_LONG (make test-long). */
 UNIT_TEST(a_mode_that_shapes_pair_wrongly_has_its_number)

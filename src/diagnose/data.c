@@ -100,15 +100,31 @@ void data_remove_double(struct job *job, int k)
         job->measurement.number[l]--;
 }
 
+#define DOUBLE_HZ  0.03 /* apart, of two modes that are one */
+#define DOUBLE_MAC 0.8
+
+/* Whether the model has two modes of this shape side by side itself, as bars in slots do: where it stands before any fit, at up
+ * to twice the distance. */
+static int has_both(const struct spectrum *s, int nsensor, const double *shape)
+{
+    int found = 0;
+    for (int j = 0, alike = 0; j < s->count && s->nmaster == nsensor; j++) {
+        int before = alike;
+        alike = rotid_mac(nsensor, s->shape + (ptrdiff_t)j * nsensor, shape) >= DOUBLE_MAC;
+        found |= before && alike && s->full_hz[j] <= (1 + 2 * DOUBLE_HZ) * s->full_hz[j - 1];
+    }
+    return found;
+}
+
 /* A nearly axisymmetric rotor has each mode twice: two measured modes of one shape and nearly one frequency. The second goes. */
-static int drop_doubles(struct engine *engine)
+static int drop_doubles(struct engine *engine, const struct spectrum *model)
 {
     struct job *job = engine->job;
     int nsensor = job->rotor.nsensor;
     for (int k = 1; k < job->measurement.nmode && job->measurement.shape && nsensor > 3; k++) {
         const double *shape = job->measurement.shape + (ptrdiff_t)k * nsensor;
         double apart = job->measurement.frequency_hz[k] / job->measurement.frequency_hz[k - 1] - 1;
-        if (fabs(apart) > 0.03 || rotid_mac(nsensor, shape - nsensor, shape) < 0.8)
+        if (fabs(apart) > DOUBLE_HZ || rotid_mac(nsensor, shape - nsensor, shape) < DOUBLE_MAC || has_both(model, nsensor, shape))
             continue;
         int status = data_add_pairing(
             engine, job->measurement.number[k - 1], job->measurement.number[k],
@@ -124,10 +140,11 @@ static int drop_doubles(struct engine *engine)
     return ROTID_OK;
 }
 
-/* No wrong modulus moves all modes alike by 2 pi, 30 or 1000: a diagnosis of numbers in another unit is refused. */
-static int are_in_another_unit(struct engine *engine)
+/* Beside the model where it stands before any fit: no wrong modulus moves all modes alike by 2 pi, 30 or 1000, and a diagnosis of
+ * numbers in another unit is refused; modes that were measured twice go. */
+static int look_at_modes(struct engine *engine)
 {
-    const struct job *job = engine->job;
+    struct job *job = engine->job;
     struct spectrum spectrum;
     struct message_list said;
     struct pool scratch;
@@ -143,8 +160,10 @@ static int are_in_another_unit(struct engine *engine)
         factor = check_units(job, &spectrum, 1, &said);
     for (size_t i = 0; i < said.count && factor > 0; i++)
         message_add(engine->notes, said.item[i].severity, job->deck, 1, 1, "%s", said.item[i].text);
+    if (!status)
+        status = factor > 0 ? ROTID_ERROR_ARGUMENT : drop_doubles(engine, &spectrum);
     pool_close(&scratch);
-    return factor > 0 ? ROTID_ERROR_ARGUMENT : status;
+    return status;
 }
 
 /* Share of the rotor that the sensors of a state cover. */
@@ -214,8 +233,7 @@ static int prepare_state(struct engine *engine)
             if (!isfinite(job->measurement.frequency_std[k]))
                 job->measurement.frequency_std[k] = ASSUMED_FREQUENCY_NOISE;
     }
-    status = are_in_another_unit(engine);
-    return status ? status : drop_doubles(engine);
+    return look_at_modes(engine);
 }
 
 int data_prepare(struct engine *engine, const struct states *states)
