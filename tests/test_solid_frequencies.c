@@ -81,7 +81,8 @@ POOL_TEST(corners_are_as_fine_as_the_wall_that_both_sides_share)
     assert_hz(4, hz, tubes, 6e-4);
 }
 
-/* A disk without mass close behind a shoulder changes nothing: the elements there go on to double from the corner. */
+/* A disk without mass, or a spring without stiffness, close behind a shoulder changes nothing: the elements there go on to double
+ * from the corner. */
 POOL_TEST(what_stands_close_to_a_step_leaves_the_mesh_of_the_corner)
 {
     static const double behind[] = {0.00025, 0.0015, -0.00075};
@@ -91,9 +92,11 @@ POOL_TEST(what_stands_close_to_a_step_leaves_the_mesh_of_the_corner)
     rig_section(&b, 0, 0.25, 0.05);
     rig_section(&b, 0, 0.3, 0.15);
     rig_section(&b, 0, 0.25, 0.06);
-    for (int i = -1; i < 3; i++) {
-        b.disk[0] = (struct disk){.position = 0.25 + (i < 0 ? 0 : behind[i]), .mass = 1e-9};
-        b.rotor.ndisk = i >= 0;
+    for (int i = -1; i < 6; i++) {
+        b.disk[0] = (struct disk){.position = 0.25 + (i < 0 ? 0 : behind[i % 3]), .mass = 1e-9};
+        b.spring[0] = (struct spring){"s", b.disk[0].position, 1e-9, 0, 0, 0};
+        b.rotor.ndisk = i >= 0 && i < 3;
+        b.rotor.nspring = i >= 3;
         assert_status(spectrum_compute_parts(&test_pool, models_as(&test_pool, AS_SOLID), &b.rotor, 0, NULL, NULL, ROTID_GUYAN, 6,
                                              SPECTRUM_MESH, i < 0 ? &bare : &s),
                       ROTID_OK);
