@@ -472,13 +472,16 @@ static int search(struct engine *engine)
     return status;
 }
 
-/* What the user does today; should that fail, there is still the judged model. */
+/* What the user does today; should that fail, there is still the judged model. What its mesh was held to is near what the base's
+ * will be. */
 static int fit_today(struct engine *engine, const struct states *states)
 {
     struct diagnosis *out = engine->out;
     struct message_list quiet;
     message_open(&quiet, engine->pool);
     int today = base_identify(engine, states, &quiet, &out->state_today, &out->today);
+    for (int s = 0; s < engine->states.nstate && !today; s++)
+        engine->states.state[s].job.held = out->state_today[s].held;
     int ends = today == ROTID_ERROR_MEMORY || (!today && out->today.fit->status == ROTID_STOP_CANCELLED);
     return !ends ? ROTID_OK : today ? today : ROTID_STOP_CANCELLED;
 }
