@@ -581,14 +581,16 @@ POOL_TEST(rounding_in_a_wheel_like_a_foil_is_no_elastic_mode)
 {
     static const double left[] = {0.25, 0.3, 0.4}, lateral[] = {0, 0.01, 0.5, 1, 10};
     struct spectrum s;
-    for (int i = 0; i < 30; i += SPARSE) {
+    const int step = getenv("ROTID_LONG") ? 1 : 4;
+    for (int i = 0; i < 30; i += step) {
         double h = i % 2 ? 0.0006 : 0.0005,
                plate = 20.475 * sqrt(2.1e11 / (12 * 0.91 * 7850)) * h / (2 * 3.14159265358979323846 * 4);
         assert_status(wheel_modes(left[i / 2 % 3], h, lateral[i / 6], &s), ROTID_OK);
         assert_int_equal(s.nrigid, 2);
         assert_true(s.full_hz[0] > 0.85 * plate && s.full_hz[0] < plate);
     }
-    assert_int_equal(wheel_modes(0.3, 0.0001, 0, &s), ROTID_ERROR_STIFFNESS);
+    for (int i = 0; i < 3; i++) /* an eigenvalue below zero does not say so there */
+        assert_int_equal(wheel_modes(0.3, 0.000094 - 0.0000055 * i, 0, &s), ROTID_ERROR_STIFFNESS);
 }
 
 /* ---- waves of Pochhammer and Chree, n = 1: u_r = U(r) cos t sin kz, u_t = V(r) sin t sin kz, u_z = W(r) cos t cos kz stand in a
