@@ -2,11 +2,11 @@
 
 #define OWN_RANGE 1e3 /* bounds of what has a value of its own in a state, from its start */
 
-int joint_measurement(struct pool *pool, const struct rival *a, const double *x, const struct test *test,
+int joint_measurement(struct pool *pool, const struct rival *a, const double *x, const struct test *test, int coarse,
                       struct job_measurement *measured)
 {
     int n = a->job.unknowns.nparameter;
-    const struct planned plan = {test->modes, test->number, test->frequency_std, test->nsensor ? test->shape_std : 0};
+    const struct planned plan = {test->modes, test->number, test->frequency_std, test->nsensor ? test->shape_std : 0, coarse};
     double *x_test = POOL_ARRAY(pool, double, n);
     int *own = POOL_ARRAY(pool, int, n);
     struct job job;
@@ -90,7 +90,7 @@ static int one_pair(struct pool *pool, struct pool *scratch, const struct rivals
                     const struct rival *b, const struct places *places, double frequency_std, double shape_std, struct design *d)
 {
     struct columns *c = POOL_NEW(scratch, struct columns);
-    const struct planned plan = {rivals->nmode, rivals->number, frequency_std, shape_std};
+    const struct planned plan = {rivals->nmode, rivals->number, frequency_std, shape_std, 1};
     struct job source, job;
     int n = b->fit->n, used = 0, q = 0;
     for (int p = 0; p < n; p++)
@@ -103,7 +103,9 @@ static int one_pair(struct pool *pool, struct pool *scratch, const struct rivals
     if (status)
         return status;
     job.measurement = source.measurement;
-    status = columns_open(scratch, &job, job.measurement.number, job.measurement.holdout, NULL, b->x, c);
+    status = planned_on_coarse(scratch, &job);
+    if (!status)
+        status = columns_open(scratch, &job, job.measurement.number, job.measurement.holdout, NULL, b->x, c);
     if (!status)
         status = columns_prepare(c, NULL);
     if (!status)
@@ -229,7 +231,7 @@ static int compare_tests(const void *left, const void *right)
 static int expect_hz(struct pool *pool, const struct rival *best, struct test *t)
 {
     struct job_measurement measured;
-    int status = joint_measurement(pool, best, best->x, t, &measured);
+    int status = joint_measurement(pool, best, best->x, t, 0, &measured);
     t->hz = status ? NULL : measured.frequency_hz;
     return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
 }
@@ -443,7 +445,7 @@ static int refit_first(struct judging *j)
             if (m->truth || m->rival > MOST_BESIDE)
                 continue;
             pool_open(&scratch, j->pool->allocator);
-            status = joint_measurement(&scratch, &rivals->rival[0], rivals->rival[0].x, &j->out->test[i], &measured);
+            status = joint_measurement(&scratch, &rivals->rival[0], rivals->rival[0].x, &j->out->test[i], 0, &measured);
             if (!status)
                 status = joint_chi2(&scratch, b, &j->out->test[i], &measured, j->environment, &chi2);
             status = scratch.out_of_memory ? ROTID_ERROR_MEMORY : status;

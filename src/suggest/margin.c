@@ -91,7 +91,9 @@ static int side_open(struct pool *pool, struct pool *scratch, const struct rival
     if (status)
         return status;
     job.measurement = *measured;
-    status = columns_open(scratch, &job, measured->number, measured->holdout, NULL, x, c);
+    status = planned_on_coarse(scratch, &job);
+    if (!status)
+        status = columns_open(scratch, &job, measured->number, measured->holdout, NULL, x, c);
     if (!status)
         status = columns_prepare(c, like);
     if (status)
@@ -161,8 +163,8 @@ static int open_sides(struct pool *pool, const struct rivals *rivals, const stru
         return ROTID_ERROR_MEMORY;
     for (int a = 0; a + 1 < n && !status; a++) {
         (*side)[a] = POOL_ARRAY(pool, struct side, n);
-        status =
-            (*side)[a] ? joint_measurement(pool, &rivals->rival[a], rivals->rival[a].x, test, &measured[a]) : ROTID_ERROR_MEMORY;
+        status = (*side)[a] ? joint_measurement(pool, &rivals->rival[a], rivals->rival[a].x, test, 1, &measured[a])
+                            : ROTID_ERROR_MEMORY;
     }
     for (int b = 0; b < n && !status; b++)
         status = open_rival(pool, rivals, test, b, measured, *side);

@@ -51,8 +51,9 @@ static int measure(struct pool *pool, struct pool *scratch, const struct job *so
     struct spectrum s;
     for (int k = 0; k < modes; k++)
         highest = number_of(plan, k) > highest ? number_of(plan, k) : highest;
-    int status = spectrum_compute_parts(scratch, source->models, &source->rotor, source->unknowns.nparameter,
-                                        source->unknowns.parameter, x, ROTID_REDUCTION_NONE, highest, 0, &s);
+    int status =
+        spectrum_compute_parts(scratch, source->models, &source->rotor, source->unknowns.nparameter, source->unknowns.parameter,
+                               x, ROTID_REDUCTION_NONE, highest, plan->coarse && source->options.solid ? SPECTRUM_COARSE : 0, &s);
     if (status || s.count < highest)
         return status ? status : ROTID_ERROR_ARGUMENT;
     struct job_measurement m = {.nmode = modes,
@@ -92,6 +93,15 @@ int planned_measure(struct pool *pool, const struct job *source, const double *x
     int status = measure(pool, &scratch, source, x, plan, to);
     pool_close(&scratch);
     return status;
+}
+
+int planned_on_coarse(struct pool *pool, struct job *job)
+{
+    int highest = 0;
+    for (int k = 0; k < job->measurement.nmode; k++)
+        highest = job->measurement.number[k] > highest ? job->measurement.number[k] : highest;
+    job->held = NULL;
+    return job->options.solid ? mesh_hold_as_it_is(pool, job, highest) : ROTID_OK;
 }
 
 int planned_test(struct pool *pool, const struct job *job, const double *x, int n, const double *z, const struct planned *plan,

@@ -285,7 +285,7 @@ static int list_detectable(struct planning *p, const struct job *job, const doub
     for (int i = 0; i < p->places->n; i++)
         if (first[i])
             z[n++] = p->places->z[i];
-    const struct planned plan = {p->modes, NULL, o->frequency_noise, o->shape_noise};
+    const struct planned plan = {p->modes, NULL, o->frequency_noise, o->shape_noise, 0};
     int status = planned_test(pool, job, x, n, z, &plan, &test);
     struct states states = states_of(&test, &state);
     if (!status)
@@ -354,7 +354,7 @@ static int plan_run(struct pool *pool, const struct job *job, const double *x, c
                     const rotid_suggest_options *o, int detect, rotid_suggestion *out)
 {
     struct design *design = POOL_NEW(pool, struct design);
-    struct planned plan = {o->modes > MOST_MODES ? o->modes : MOST_MODES, NULL, o->frequency_noise, o->shape_noise};
+    struct planned plan = {o->modes > MOST_MODES ? o->modes : MOST_MODES, NULL, o->frequency_noise, o->shape_noise, 0};
     int status = ROTID_ERROR_ARGUMENT, deck = 0, *first = POOL_ARRAY(pool, int, places->n),
         *optimal = POOL_ARRAY(pool, int, places->n), *classic = POOL_ARRAY(pool, int, places->n);
     double apart = fmin(places->apart, SPREAD / o->sensors * rotor_length(&job->rotor));

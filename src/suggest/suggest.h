@@ -76,6 +76,7 @@ struct planned {
     int modes;
     const int *number;               /* [modes] elastic modes, from 1; NULL: the first ones */
     double frequency_std, shape_std; /* relative, > 0; shape_std 0: no shapes */
+    int coarse;                      /* nonzero: of a solid by its coarse mesh */
 };
 
 /* *to := the job `from` with sensors at z [n], increasing, and without measurements. Where the job has a sensor its id stays;
@@ -88,6 +89,10 @@ int planned_sensors(struct pool *pool, const struct job *from, int n, const doub
  * places. All modes are fitted, by the likelihood of the full model. Statuses of spectrum_compute; ROTID_ERROR_ARGUMENT where
  * the model has fewer modes. */
 int planned_measure(struct pool *pool, const struct job *source, const double *x, const struct planned *plan, struct job *to);
+
+/* Columns of the job, whose measurements are `coarse`, are those of the coarse mesh too: rivals are compared there, its error is
+ * one that they share. Nothing of a beam. ROTID_OK or ROTID_ERROR_MEMORY. */
+int planned_on_coarse(struct pool *pool, struct job *job);
 
 /* *to := the job in a test with sensors at z [n], increasing: the measurements of its own model at x, and weighed as well as the
  * job was. Statuses of planned_measure and model_weigh. */
@@ -246,8 +251,8 @@ int candidates_judge(struct pool *pool, const struct places *places, const rotid
 /* A rival fitted to what was measured and to a test at once: what the linear margins are compared with. */
 
 /* *measured := what rival a at the values x [job.unknowns.nparameter] of the parameters of its home would give in the test,
- * without noise. Statuses of planned_measure. */
-int joint_measurement(struct pool *pool, const struct rival *a, const double *x, const struct test *test,
+ * without noise; coarse as in struct planned. Statuses of planned_measure. */
+int joint_measurement(struct pool *pool, const struct rival *a, const double *x, const struct test *test, int coarse,
                       struct job_measurement *measured);
 
 /* *chi2 of rival b fitted to its measurements in all states and to `measured` of the test together, from where it stands; what
