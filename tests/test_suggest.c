@@ -449,7 +449,7 @@ POOL_TEST(a_lead_that_is_promised_is_found)
             for (int i = 0; i < ambiguous[c].draws; i++) {
                 struct job_measurement measured;
                 draw_truth(&stream, a, x);
-                assert_int_equal(joint_measurement(&test_pool, a, x, &s.test[t], &measured), 0);
+                assert_int_equal(joint_measurement(&test_pool, a, x, &s.test[t], 0, &measured), 0);
                 add_noise(&stream, &measured, s.test[t].nsensor);
                 value[i] = lead(a, b, &s.test[t], &measured);
             }
