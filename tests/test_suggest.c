@@ -30,6 +30,33 @@ static rotid_suggestion *suggest_text(const char *text, const rotid_suggest_opti
     return s;
 }
 
+/* A solid by its coarse mesh: columns of the model that was planned with leave nothing there, those of the finer mesh do. */
+POOL_TEST(a_test_of_a_solid_is_planned_on_one_mesh)
+{
+    const double place[] = {0, 0.2, 0.45, 0.7, 0.9, 1.1};
+    const int number[] = {1, 2, 3};
+    const struct planned plan = {3, number, 1e-3, 1e-2, 1};
+    struct message_list messages;
+    struct job job, to;
+    message_open(&messages, &test_pool);
+    const char *path = folder_write("solid.inp", pool_format(&test_pool, "%s*FIT, MODEL=SOLID\n", shaft));
+    assert_status(deck_read(&test_pool, path, 0, NULL, &messages, &job), ROTID_OK);
+    assert_status(planned_sensors(&test_pool, &job, 6, place, &job), ROTID_OK);
+    double *x = parameter_starts(&test_pool, job.unknowns.nparameter, job.unknowns.bounds);
+    assert_status(planned_measure(&test_pool, &job, x, &plan, &job), ROTID_OK);
+    to = job;
+    for (int coarse = 0; coarse < 2; coarse++) {
+        struct columns columns;
+        double most = 0;
+        if (coarse)
+            assert_status(planned_on_coarse(&test_pool, &to), ROTID_OK);
+        assert_status(columns_open(&test_pool, &to, number, to.measurement.holdout, NULL, x, &columns), ROTID_OK);
+        for (int i = 0; i < columns.nrow; i++)
+            most = fmax(most, fabs(columns.r[i]));
+        assert_true(coarse ? most < 1e-3 : most > 0.1);
+    }
+}
+
 /* ---- before a test */
 
 /* Where E alone is free and G follows, every frequency goes with the root of E: 196 2 s / sqrt(m) percent. */
