@@ -171,6 +171,30 @@ POOL_TEST(tie_rods_act_as_on_a_beam)
     compare(&plain, &b, 3e-3);
 }
 
+/* Tension of rods that follow is balanced by what it presses together, however large; of rods that press elsewhere it is a
+ * tension of the axis. */
+POOL_TEST(tension_of_rods_that_follow_is_that_of_the_axis)
+{
+    struct rig b;
+    double loose[4], tight[4], pulled[4];
+    slender(&b, 3);
+    rods(&b, 1, 0);
+    rig_solid(&b.rotor, NULL, 1, 2, 4, loose);
+    b.tierod[0].tension = 1e6;
+    rig_solid(&b.rotor, NULL, 1, 2, 4, tight);
+    assert_hz(4, tight, loose, 1e-9);
+    b.tierod[0].from = 0;
+    b.tierod[0].to = rotor_length(&b.rotor);
+    b.tierod[0].self_equilibrated = 0;
+    rig_solid(&b.rotor, NULL, 1, 2, 4, tight);
+    b.tierod[0].tension = 0;
+    for (int g = 0; g < 3; g++)
+        b.group[g].preload = 8e6;
+    rig_solid(&b.rotor, NULL, 1, 2, 4, pulled);
+    assert_hz(4, tight, pulled, 1e-9);
+    assert_true(tight[0] > 1.01 * loose[0]);
+}
+
 POOL_TEST(axial_force_acts_as_in_a_beam)
 {
     struct rig plain, b;

@@ -294,6 +294,27 @@ POOL_TEST(what_is_attached_to_a_covered_section_is_held_by_what_carries)
     }
 }
 
+/* A disk where a core of a tenth of the shaft's E begins holds on to both: neither is the cover of the other. */
+POOL_TEST(what_is_attached_between_two_sections_is_held_by_both)
+{
+    struct spectrum s[2];
+    for (int i = 0; i < 2; i++) {
+        struct rig b;
+        rig_begin(&b, 2);
+        rig_section(&b, 0, 0.5, 0.1);
+        rig_section(&b, 1, 0.5, 0.3);
+        b.group[0].material = (struct material){.isotropic = 1, .e = 2.1e11, .nu = 0.3, .rho = 7850};
+        b.group[1].material = (struct material){.isotropic = 1, .e = i ? 2.11e10 : 2.09e10, .nu = 0.3, .rho = 7600};
+        b.rotor.ndisk = 1;
+        b.disk[0] = (struct disk){.name = "d", .position = 0.5, .mass = 100, .diametral = 2};
+        assert_status(spectrum_compute_parts(&test_pool, models_as(&test_pool, AS_SOLID), &b.rotor, 0, NULL, NULL, ROTID_GUYAN, 3,
+                                             SPECTRUM_MESH, &s[i]),
+                      ROTID_OK);
+    }
+    for (int j = 0; j < 3; j++)
+        assert_close(s[0].full_hz[j], s[1].full_hz[j], 6e-3, 0);
+}
+
 /* A bore of a tenth of the diameter, beside which motions go as 1/r, and a disk or a spring that bring a moment into the section:
  * errors of 3e-5 and 2e-4 were stated as 1e-5. References: eight-node elements with an even and a graded mesh, extrapolated, of a
  * program of its own in numpy. */

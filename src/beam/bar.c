@@ -54,8 +54,8 @@ static struct bar axis_bar(const struct beam *beam, int e)
     struct effect_field *factor;
     int count = factors_parts(beam, e, &part, &factor), group = rotor->segment[beam->mesh.segment[e]].group;
     double pull = fibres(beam, e);
-    struct bar bar = {.stiffness =
-                          pull != 0 ? pull * rotor_axial_force(rotor, group, mesh_middle(&beam->mesh, e)) : contraction(beam, e)};
+    struct bar bar = {.stiffness = pull != 0 ? pull * rotor_axial_force(rotor, group, mesh_middle(&beam->mesh, e), 0)
+                                             : contraction(beam, e)};
     for (int i = 0; i < count; i++) {
         struct material material = rotor->group[part[i].group].material;
         material.g = material_shear_modulus(&material);
@@ -99,7 +99,7 @@ static struct bar axis_direction_of(const struct beam *beam, struct parameter pa
     }
     double pull = fibres(beam, e);
     if (pull != 0)
-        d.stiffness += pull * rotor_axial_force_derivative(&beam->rotor, parameter, mesh_middle(&beam->mesh, e));
+        d.stiffness += pull * rotor_axial_force_derivative(&beam->rotor, parameter, mesh_middle(&beam->mesh, e), 0);
     return d;
 }
 

@@ -27,7 +27,7 @@ void axis_quantities(const struct beam *beam, int e, struct element *element)
     double contraction, shear = axis_shear(beam, e, &contraction);
     *element = (struct element){.ei = contraction,
                                 .kgs = shear,
-                                .force = beam->elastic_only ? 0 : rotor_axial_force(rotor, group, mesh_middle(mesh, e)),
+                                .force = beam->elastic_only ? 0 : rotor_axial_force(rotor, group, mesh_middle(mesh, e), 0),
                                 .length = mesh->z[e + 1] - mesh->z[e]};
     for (int i = 0; i < count; i++)
         add_part(&rotor->group[part[i].group].material, &part[i].section, factor ? &factor[i] : NULL, element);
@@ -72,7 +72,7 @@ static int effect_direction(const struct beam *beam, struct parameter parameter,
         add_direction(beam, i, &v, d);
         moves = 1;
     }
-    d->force = rotor_axial_force_derivative(&beam->rotor, parameter, mesh_middle(&beam->mesh, e));
+    d->force = rotor_axial_force_derivative(&beam->rotor, parameter, mesh_middle(&beam->mesh, e), 0);
     return moves || d->force != 0;
 }
 
@@ -87,7 +87,7 @@ int axis_direction(const struct beam *beam, struct parameter parameter, int e, s
     if (parameter.kind == PARAMETER_EFFECT)
         return effect_direction(beam, parameter, e, d);
     if (parameter.kind == PARAMETER_TENSION) {
-        d->force = rotor_axial_force_derivative(rotor, parameter, mesh_middle(&beam->mesh, e));
+        d->force = rotor_axial_force_derivative(rotor, parameter, mesh_middle(&beam->mesh, e), 0);
         return d->force != 0;
     }
     for (int i = 0; i < count && parameter.kind <= PARAMETER_RHO; i++) {

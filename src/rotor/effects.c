@@ -158,35 +158,38 @@ int effects_disk_of(const struct rotor *rotor, struct parameter parameter)
     return effect && effect->kind->at_disk ? effect->target : parameter.kind == PARAMETER_DISK_INERTIA ? parameter.index : -1;
 }
 
-/* whether the rods press on what lies at z */
-static int clamps(const struct tierod *rod, double z)
+/* Part of N T on what lies at z: minus what the rods press with, plus that of rods which are on the axis themselves. */
+static int share_of_tension(const struct tierod *rod, double z, int followed)
 {
-    return rod->self_equilibrated && rod->from < z && z < rod->to;
+    return rod->from < z && z < rod->to ? (followed && rod->elements == 1) - (rod->self_equilibrated != 0) : 0;
 }
 
-double rotor_axial_force(const struct rotor *rotor, int group, double z)
+double rotor_axial_force(const struct rotor *rotor, int group, double z, int followed)
 {
     double force = rotor->group[group].preload;
     for (int t = 0; t < rotor->ntierod; t++) {
         const struct tierod *rod = &rotor->tierod[t];
-        if (clamps(rod, z))
-            force -= rod->number * rod->tension * (rotor->neffect ? effects_on_tierod(rotor, t).tension : 1);
+        int share = share_of_tension(rod, z, followed);
+        if (share)
+            force += share * rod->number * rod->tension * (rotor->neffect ? effects_on_tierod(rotor, t).tension : 1);
     }
     return force;
 }
 
-double rotor_axial_force_derivative(const struct rotor *rotor, struct parameter parameter, double z)
+double rotor_axial_force_derivative(const struct rotor *rotor, struct parameter parameter, double z, int followed)
 {
     double d = 0;
     if (parameter.kind == PARAMETER_TENSION) {
         const struct tierod *rod = &rotor->tierod[parameter.index];
-        return clamps(rod, z) ? -rod->number * (rotor->neffect ? effects_on_tierod(rotor, parameter.index).tension : 1) : 0;
+        return share_of_tension(rod, z, followed) * rod->number *
+               (rotor->neffect ? effects_on_tierod(rotor, parameter.index).tension : 1);
     }
     for (int t = 0; t < rotor->ntierod && parameter.kind == PARAMETER_EFFECT; t++) {
         const struct tierod *rod = &rotor->tierod[t];
         struct effect_bundle bundle = {0, 0, 0};
-        if (clamps(rod, z) && effects_tierod_derivative(rotor, parameter, t, &bundle))
-            d -= rod->number * rod->tension * bundle.tension;
+        int share = share_of_tension(rod, z, followed);
+        if (share && effects_tierod_derivative(rotor, parameter, t, &bundle))
+            d += share * rod->number * rod->tension * bundle.tension;
     }
     return d;
 }

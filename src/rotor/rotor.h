@@ -348,10 +348,11 @@ int effects_move_spring(const struct rotor *rotor, int spring);
 double effects_on_disk(const struct rotor *rotor, int disk);
 int effects_disk_of(const struct rotor *rotor, struct parameter parameter);
 
-/* Force on the axis at z of a group [N], tension positive: its preload less what the tie rods press together there; and the
- * derivative, 0 where it does not depend on the parameter. */
-double rotor_axial_force(const struct rotor *rotor, int group, double z);
-double rotor_axial_force_derivative(const struct rotor *rotor, struct parameter parameter, double z);
+/* Force on the axis at z of a group [N], tension positive: its preload less what the tie rods press together there, with
+ * `followed` and the tension of rods of one element, which then move with the axis everywhere; and the derivative, 0 where it
+ * does not depend on the parameter. */
+double rotor_axial_force(const struct rotor *rotor, int group, double z, int followed);
+double rotor_axial_force_derivative(const struct rotor *rotor, struct parameter parameter, double z, int followed);
 
 /* --------------------------------------------------------------------------------------------------------------- section */
 

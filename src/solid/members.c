@@ -123,16 +123,14 @@ static void add_stretch(const struct solid *solid, int i, double stiffness, doub
         motion_add(m, inertia / 3, &w[0], &w[1]);
 }
 
-/* rho S, rho I and the tension of rods that follow the section, from half-way to half-way between lines; v' = -theta */
-static void add_following(const struct solid *solid, const struct element *q, int from, int to, const struct target *k,
-                          const struct target *m)
+/* rho S and rho I of rods that follow the section, from half-way to half-way between lines; their tension is in the axial force
+ * of the section (rotor_axial_force), where it balances what they press with */
+static void add_following(const struct solid *solid, const struct element *q, int from, int to, const struct target *m)
 {
     const double *z = solid->mesh.z;
     for (int l = from; l <= to; l++) {
         const struct solid_line *line = &solid->line[l];
         double length = ((l < to ? z[l + 1] : z[l]) - (l > from ? z[l - 1] : z[l])) / 2;
-        if (k && q->force != 0)
-            motion_add(k, q->force * length, &line->theta, &line->theta);
         if (m && q->rhos != 0)
             motion_add(m, q->rhos * length, &line->v, &line->v);
         if (m && q->rhoi != 0)
@@ -194,7 +192,7 @@ void members_assemble(const struct solid *solid, int p, const struct target *k, 
         if (p < 0)
             d = element_of(solid, &member, 1);
         if (solid_mesh_follows(rotor, i))
-            add_following(solid, &d, from, to, k, m);
+            add_following(solid, &d, from, to, m);
         else
             add_chain(solid, element_of(solid, &member, 1), i, p < 0 ? NULL : &d, from, to, k, m);
         double area = member.section.stiff_area, length = mesh->z[to] - mesh->z[from];
@@ -219,7 +217,7 @@ void members_gyroscopic(const struct solid *solid, const struct target *p)
         turning.rhos = turning.force = 0;
         turning.rhoi *= 2;
         if (solid_mesh_follows(rotor, i))
-            add_following(solid, &turning, from, to, NULL, p);
+            add_following(solid, &turning, from, to, p);
         else
             add_chain(solid, turning, i, NULL, from, to, NULL, p);
         double length = mesh->z[to] - mesh->z[from];

@@ -4,7 +4,7 @@
 static const double place[3] = {-0.77459666924148337704, 0, 0.77459666924148337704};
 static const double weight[3] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
 
-#define COVER 0.1 /* of the largest E at a section */
+#define COVER 0.1 /* of the largest E of a section */
 
 static int motion_new(struct pool *pool, int most, struct motion *motion)
 {
@@ -42,19 +42,22 @@ static void edge_at(const struct solid_mesh *mesh, int n, double x, double *r, d
     *slope = (x - 0.5) * node[0].r - 2 * x * node[1].r + (x + 0.5) * node[2].r;
 }
 
-/* Whether what is held at a line holds on to the edge from node n to n + 2 of that line: a cover of a softer material gives way.
- */
+/* Whether what is held at a line holds on to the edge from node n to n + 2 of that line, in the section on either side: a cover
+ * of a softer material gives way. */
 static int carries(const struct rotor *rotor, const struct solid_mesh *mesh, int line, int n)
 {
-    double own = 0, most = 0;
-    for (int slice = line > 0 ? line - 1 : 0; slice <= line && slice < mesh->nslice; slice++)
+    int any = 0;
+    for (int slice = line > 0 ? line - 1 : 0; slice <= line && slice < mesh->nslice; slice++) {
+        double own = 0, most = 0;
         for (int i = mesh->first[slice]; i < mesh->first[slice + 1]; i++) {
             const struct solid_element *element = &mesh->element[i];
             double e = rotor->group[element->group].material.e;
             most = fmax(most, e);
             own = element->node[slice < line ? 3 : 0] == n ? fmax(own, e) : own;
         }
-    return own >= COVER * most;
+        any |= own > 0 && own >= COVER * most;
+    }
+    return any;
 }
 
 /* In torsion V = r_i A_i at node i: the rotation V/r is that of A = 1 where all A_i are 1, though the axis has no unknown. */
