@@ -13,7 +13,8 @@
  *   prestress      solid.c: sigma = share of rotor_axial_force over the area; K += pi sigma int (U,z^2 + V,z^2 + W,z^2) r dr dz
  *   attachments    motion.c (motion_of_section): v = int (U - V)/2 r dr/int r dr, theta = int W r^2 dr/int r^3 dr of a section;
  *                  on these solid.c (solid_add_attached) puts springs and disks; point masses are rings of the surface
- *   tie rods, bars members.c (members_assemble): beam elements beside the solid; tension N T of the rods enters their K_G there;
+ *   tie rods, bars members.c (members_assemble): beam elements beside the solid; tension N T of the rods enters their K_G there,
+ *                  of one element the axial force;
  *                  stretch by W at the pitch radius (motion_axial)
  *   joints         solid.c (joint_compliance): 1/E + c I/t in the slice beside the interface
  *   basis          basis.c (solid_basis_assemble): V'K V and V'M V of motions u = V q, by classes of equal shares
