@@ -101,6 +101,8 @@ POOL_TEST(little_that_is_left_has_its_own_image)
         solve_stated(*state, 60, 12, count, FEW_COPIES, 1e11, 1);
         solve_stated(*state, 62, 12, count, FEW_COPIES, 1e12, 1);
     }
+    solve_stated(*state, 71, 12, 6, FEW_COPIES, 1e8, 1);
+    solve_stated(*state, 59, 12, 6, FEW_COPIES, 1e12, 1);
 }
 
 /* Too many rows for the dense solver, which would answer in place of the bands: the count below a shift sees the rounding of the
