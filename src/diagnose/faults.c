@@ -265,7 +265,7 @@ static struct column of_sensor(const struct channels *c, int s, const double *va
     return out;
 }
 
-/* What sensor s would read more at z than where it is stated. */
+/* What sensor s would read at z more than where it is stated. */
 static struct column of_place(const struct channels *c, int s, double z)
 {
     double stated = c->states->state[c->state].job.rotor.sensor[s].position;
@@ -279,19 +279,19 @@ static struct column of_place(const struct channels *c, int s, double z)
     return out;
 }
 
-/* Along its slope, or at the place of a grid that promises more: far from where it is stated a slope leads nowhere. */
+/* Along its slope, or at the place of a grid that promises most: far from where it is stated a slope leads nowhere. */
 static int offer_position(struct fault_list *list, int s)
 {
     const struct channels *c = list->channels;
     const struct rotor *rotor = &c->states->state[c->state].job.rotor;
-    const struct column slope = of_sensor(c, s, c->slope, 1);
+    struct column slope = of_sensor(c, s, c->slope, 1);
     const struct cause_parameter *prior = catalogue_find("sensor_position")->parameter;
-    double length = rotor_length(rotor), deviation = length * prior->scale, gross = log(prior->gross * prior->scale), shift = 0,
-           best = -INFINITY, along, width = log1p(project(list->scan, &slope, &along) * deviation * deviation) / 2, linear;
-    (void)gain_of_size(list->scan, &slope, deviation, &linear);
-    for (int i = -1; i <= PLACES; i++) {
-        double stated = rotor->sensor[s].position, there = i < 0 ? linear : length * i / PLACES - stated;
-        const struct column at = of_place(c, s, stated + there);
+    double length = rotor_length(rotor), deviation = length * prior->scale, shift, along,
+           gross = log(prior->gross * prior->scale), best = gain_of_size(list->scan, &slope, deviation, &shift),
+           width = log1p(project(list->scan, &slope, &along) * deviation * deviation) / 2;
+    for (int i = 0; i <= PLACES; i++) {
+        double there = length * i / PLACES - rotor->sensor[s].position;
+        struct column at = of_place(c, s, length * i / PLACES);
         double gain = gain_of_fixed(list->scan, &at) + fmax(-there * there / (2 * deviation * deviation), gross) - width;
         if (gain > best) {
             best = gain;
