@@ -342,7 +342,7 @@ static const char *mass_between(const char *table)
 POOL_TEST(a_mode_that_rides_along_the_speed_is_critical_where_it_comes_and_where_it_goes)
 {
     static const double turn[][3] = {{5980, 6020, 1}, {6020, 6200, 1}, {5780, 5820, 1.0002}, {6080, 6120, 1.00007}};
-    static const int speeds[] = {2, 53, 313};
+    static const int speeds[] = {2, 17, 53, 80, 97, 313};
     const double row[2] = {4000, 14000}, m = 50, e = 1e14, area = 3.14159265358979323846 * 0.01, inertia = area * 0.01 / 4;
     const double kappa = 6 * 1.3 / (7 + 6 * 0.3), shaft = 1 / (1 / (48 * e * inertia) + 1 / (4 * kappa * e / 2.6 * area));
     for (size_t n = 0; n < sizeof turn / sizeof *turn; n++) {
