@@ -265,7 +265,7 @@ static struct column of_sensor(const struct channels *c, int s, const double *va
     return out;
 }
 
-/* What sensor s would read at z more than where it is stated. */
+/* What sensor s would read more at z than where it is stated. */
 static struct column of_place(const struct channels *c, int s, double z)
 {
     double stated = c->states->state[c->state].job.rotor.sensor[s].position;

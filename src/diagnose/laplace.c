@@ -140,13 +140,13 @@ static struct unknown unknown_of_cause(const struct cause_kind *cause, int p, do
                                             log(upper / parameter->neutral) / parameter->scale);
         return u;
     }
-    struct unknown near = normal_unknown(x, parameter->neutral, deviation_of(parameter, lower, upper), lower, upper),
-                   far = flat_unknown(1, lower - x, upper - x);
-    if (parameter->gross > 0) {
-        near.density += log1p(-parameter->gross);
-        far.density += log(parameter->gross);
-    }
-    return parameter->gross > 0 && far.density > near.density - near.mean * near.mean / 2 - log(near.step) ? far : near;
+    struct unknown near = normal_unknown(x, parameter->neutral, deviation_of(parameter, lower, upper), lower, upper);
+    if (!(parameter->gross > 0))
+        return near;
+    struct unknown far = flat_unknown(1, lower - x, upper - x);
+    near.density += log1p(-parameter->gross);
+    far.density += log(parameter->gross);
+    return far.density > near.density - near.mean * near.mean / 2 - log(near.step) ? far : near;
 }
 
 /* Unknown p of all at x. */

@@ -8,6 +8,14 @@ double rotor_length(const struct rotor *rotor)
     return sum;
 }
 
+int rotor_segment_at(const struct rotor *rotor, double z)
+{
+    int s = 0;
+    for (double end = rotor->segment[0].length; s + 1 < rotor->nsegment && end < z; end += rotor->segment[s].length)
+        s++;
+    return s;
+}
+
 long rotor_elements(const struct rotor *rotor)
 {
     long sum = 0;

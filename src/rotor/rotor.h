@@ -124,6 +124,9 @@ struct rotor {
 };
 
 double rotor_length(const struct rotor *rotor);
+
+/* The segment at z [m], at an end of two the left one; beyond the rotor the first or the last. */
+int rotor_segment_at(const struct rotor *rotor, double z);
 /* Of the axis, as the deck has them. */
 long rotor_elements(const struct rotor *rotor);
 

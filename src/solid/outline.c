@@ -97,8 +97,7 @@ static int lines_graded(struct pool *pool, int nstop, const struct stop *stop, i
 #define AT_LINE    0.01 /* of a slice: a sensor is taken to be at the line */
 #define MOVES      0.35 /* of the slices beside it: how far a line moves to a sensor */
 #define SMALL_BORE 0.02 /* of the largest element: half of a bore that counts no more */
-#define INTERFACE                                                                                                                \
-    0.1 /* of the radius: elements at a plain interface of two groups, where a joint may be, and where a moment enters */
+#define INTERFACE  0.1  /* of the radius: elements at a plain interface, where a joint may be, and where a moment enters */
 
 static double outline_inner(const struct rotor *rotor, int s)
 {
@@ -329,10 +328,7 @@ static int radial(struct pool *pool, const struct rotor *rotor, const struct sol
  * radius. What they leave the coarse mesh tells, which has none there. */
 static double moment_size(const struct rotor *rotor, int refine, double z)
 {
-    int s = 0;
-    for (double end = rotor->segment[0].length; s + 1 < rotor->nsegment && end < z; end += rotor->segment[s].length)
-        s++;
-    return refine ? INTERFACE * outline_outer(rotor, s) : 0;
+    return refine ? INTERFACE * outline_outer(rotor, rotor_segment_at(rotor, z)) : 0;
 }
 
 static int axial_stops(struct pool *pool, const struct rotor *rotor, const struct solid_rule *rule, int refine, int *nstop,

@@ -225,6 +225,11 @@ static double axial_force(const struct solid *solid, const struct solid_element 
                              solid->mesh.type == MODE_BENDING);
 }
 
+static double axial_force_rate(const struct solid *solid, const struct solid_element *element, struct parameter parameter)
+{
+    return rotor_axial_force_derivative(&solid->rotor, parameter, middle_of(solid, element), solid->mesh.type == MODE_BENDING);
+}
+
 void solid_field_of_share(const struct solid *solid, const struct solid_element *element, int share, struct share *out)
 {
     const struct material *material = &solid->rotor.group[element->group].material;
@@ -275,8 +280,7 @@ static int by_effect(const struct solid *solid, const struct solid_element *elem
     const struct material *material = &solid->rotor.group[element->group].material;
     struct effect_span span = span_of(solid, element, share);
     struct effect_field relative = {0, 0, 0};
-    double rho, force = rotor_axial_force_derivative(&solid->rotor, parameter, middle_of(solid, element),
-                                                     solid->mesh.type == MODE_BENDING);
+    double rho, force = axial_force_rate(solid, element, parameter);
     if (force != 0)
         rate->stress = force * share_of_force(solid, element, NULL, NULL);
     int moves = effects_axis_rate(&solid->rotor, parameter, &span, 0, &relative);
@@ -298,8 +302,7 @@ int solid_field_rate(const struct solid *solid, const struct solid_element *elem
     if (parameter.kind == PARAMETER_EFFECT)
         return by_effect(solid, element, share, parameter, rate);
     if (parameter.kind == PARAMETER_TENSION) {
-        double force =
-            rotor_axial_force_derivative(&solid->rotor, parameter, middle_of(solid, element), solid->mesh.type == MODE_BENDING);
+        double force = axial_force_rate(solid, element, parameter);
         rate->stress = force == 0 ? 0 : force * share_of_force(solid, element, NULL, NULL);
         return force != 0;
     }

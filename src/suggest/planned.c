@@ -97,11 +97,8 @@ int planned_measure(struct pool *pool, const struct job *source, const double *x
 
 int planned_on_coarse(struct pool *pool, struct job *job)
 {
-    int highest = 0;
-    for (int k = 0; k < job->measurement.nmode; k++)
-        highest = job->measurement.number[k] > highest ? job->measurement.number[k] : highest;
     job->held = NULL;
-    return job->options.solid ? mesh_hold_as_it_is(pool, job, highest) : ROTID_OK;
+    return job->options.solid ? mesh_hold_as_it_is(pool, job, comparison_highest(job)) : ROTID_OK;
 }
 
 int planned_test(struct pool *pool, const struct job *job, const double *x, int n, const double *z, const struct planned *plan,

@@ -14,10 +14,8 @@ static int stands_alone(struct pool *scratch, const struct rotor *stated, int s,
 
 static double element_length_at(const struct rotor *rotor, double z)
 {
-    int s = 0;
-    for (double end = rotor->segment[0].length; s + 1 < rotor->nsegment && end < z; end += rotor->segment[s].length)
-        s++;
-    return rotor->segment[s].length / rotor->segment[s].elements;
+    const struct segment *segment = &rotor->segment[rotor_segment_at(rotor, z)];
+    return segment->length / segment->elements;
 }
 
 #define STEP  0.011 /* of an element: a node nearer than 0.01 would be shared */
