@@ -29,7 +29,8 @@ static void put_sensors(char *text)
 }
 
 /* Modes of the rotor, with the effect (may be NULL) in it, as a solid of a mesh twice as fine, with that share of the stated
- * noise, as cards; where `copied` the last but one sensor is recorded in place of the last one. */
+ * noise, as cards, their signs such that the first sensor moves upwards: solvers leave them open, and with them what a noise
+ * does; where `copied` the last but one sensor is recorded in place of the last one. */
 static void put_measured(const struct effect *effect, double share, int copied, char *text)
 {
     struct message_list messages;
@@ -57,6 +58,7 @@ static void put_measured(const struct effect *effect, double share, int copied, 
         double largest = 0, read = 0;
         for (int s = 0; s < SENSORS; s++)
             largest = fmax(largest, fabs(prediction_at_sensor(&p, rigid + k, s)));
+        largest = copysign(largest, prediction_at_sensor(&p, rigid + k, 0));
         (void)sprintf(text + strlen(text), "*SHAPE, MODE=%d\n", k + 1);
         for (int s = 0; s < SENSORS; s++) {
             double own = prediction_at_sensor(&p, rigid + k, s) / largest + share * shape_noise * random_normal(&noise);

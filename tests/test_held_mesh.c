@@ -5,6 +5,7 @@
 #include "solid_rig.h"
 
 #include "deck/deck.h"
+#include "diagnose/diagnose.h"
 #include "model/model.h"
 #include "run/run.h"
 #include "support.h"
@@ -105,6 +106,27 @@ POOL_TEST(a_fit_on_the_coarse_mesh_is_that_of_the_mesh_that_counts)
         rotid_fit_free(fine);
         rotid_fit_free(found.fit);
     }
+}
+
+/* A fit of the search ends in its basis, and takes the Jacobian from there. */
+POOL_TEST(a_fit_that_ends_in_its_basis_has_the_jacobian_of_the_mesh)
+{
+    static const int number[MODES] = {1, 2, 3, 4}, holdout[MODES] = {0};
+    rotid_fit_result *ends, *goes_on;
+    struct state one;
+    struct job job;
+    measured_job(1, &job);
+    const struct states states = states_of(&job, &one);
+    assert_status(mesh_hold_as_it_is(&test_pool, &one.job, MODES + 2), ROTID_OK);
+    assert_status(refit_states(&test_pool, &states, number, holdout, NULL, &ends), ROTID_OK);
+    assert_status(identify_fit_states(&test_pool, &states, number, holdout, &job.options.fit, NULL, &goes_on), ROTID_OK);
+    print_message("%d and %d Jacobians\n", ends->jacobians, goes_on->jacobians);
+    assert_true(ends->jacobians < goes_on->jacobians);
+    for (int p = 0; p < 2; p++)
+        assert_close(ends->std[p], goes_on->std[p], 1e-3, 0);
+    assert_close(ends->correlation[1], goes_on->correlation[1], 0, 1e-3);
+    rotid_fit_free(ends);
+    rotid_fit_free(goes_on);
 }
 
 /* A disc of soft sheets, whose meshes are apart by another share of a frequency at other moduli: its own modes lead back to its

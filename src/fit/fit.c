@@ -148,6 +148,7 @@ struct fit {
     double *x, *y, *r, *jacobian, *work;
     double *bounded;        /* dr/dx that was asked for last */
     const double *known;    /* r at the start, where the joint stands there already, until it is asked for */
+    int jacobian_known;     /* nonzero: `jacobian` and `bounded` are those there, until they are asked for */
     const double *accepted; /* y of the last accepted point, NULL before the first */
     int before;             /* iterations before those of the minimiser that runs */
     double begin;           /* on the clock */
@@ -200,6 +201,8 @@ static int residual(void *user, int m, int n, const double *y, double *r, double
         fit->callback_status = ROTID_OK;
     } else if (r) {
         fit->callback_status = joint_residual(&fit->joint, fit->x, r);
+    } else if (fit->jacobian_known) {
+        fit->jacobian_known = 0;
     } else {
         fit->callback_status = joint_jacobian(&fit->joint, fit->x, fit->bounded);
         bounds_jacobian(m, n, fit->parameter, chi, y, fit->bounded, jacobian);
@@ -471,8 +474,9 @@ static double objective_at(struct fit *fit, const double *x)
 
 /* y := the minimum of models near the start, made anew where the last one ended until they agree there with the states: what the
  * minimiser has to do with the states themselves is a step then, or, where a decrease is worth nothing, none (*end: why the
- * minimum of the models is one; else 0): what a step still promises there comes from jumps of the model. A point that is no
- * better for the states is left, but known to the next models. ROTID_OK or ROTID_ERROR_MEMORY. */
+ * minimum of the models is one; else 0): what a step still promises there comes from jumps of the model, and the Jacobian of the
+ * models, 1e-5 to 1e-4 off, is that of the fit. A point that is no better for the states is left, but known to the next models.
+ * ROTID_OK or ROTID_ERROR_MEMORY. */
 static int begin_near(struct pool *pool, struct fit *fit, const struct fit_problem *problem, rotid_lm_options *options, int *end)
 {
     int n = fit->n, there = 1, agrees = 0, stands = 0, status = ROTID_OK;
@@ -515,6 +519,11 @@ static int begin_near(struct pool *pool, struct fit *fit, const struct fit_probl
         stands = now < lowest;
         agrees = fabs(now - lm.objective) <= fmax(worth / 100, NEAR_AGREES * now);
         *end = agrees && stands && worth > 0 ? lm.status : 0;
+        if (*end) {
+            fit->joint = near;
+            fit->jacobian_known = !residual(fit, full.nresidual, n, fit->y, NULL, fit->jacobian);
+            fit->joint = full;
+        }
         if (stands) {
             lowest = now;
             memcpy(best, fit->y, (size_t)n * sizeof *best);

@@ -158,6 +158,18 @@ int model_in_basis(struct pool *pool, struct rotor_model *model, const double *x
     return ROTID_OK;
 }
 
+int model_mass_is_positive(const struct rotor_model *model)
+{
+    int positive = discretisation_is_solid(model->discrete.as);
+    for (int p = 0; p < model->equations.nparam; p++) {
+        enum parameter_kind kind = model->parameter[p].kind;
+        positive &= kind != PARAMETER_RHO && kind != PARAMETER_DISK_MASS && kind != PARAMETER_DISK_INERTIA;
+    }
+    for (int i = 0; i < model->rotor->neffect; i++)
+        positive &= !model->rotor->effect[i].kind->at_disk && !model->rotor->effect[i].kind->point;
+    return positive;
+}
+
 double model_master_z(const struct rotor_model *model, int i)
 {
     return model->rotor->nsensor ? discrete_sensor_z(&model->discrete, i) : model->z[i];

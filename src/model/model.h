@@ -201,6 +201,10 @@ void model_differentiate(const struct rotor_model *model, const double *x, int p
 int model_derivative_products(const struct rotor_model *model, const double *x, int p, int count, const double *u, double *dk_u,
                               double *dm_u, int *from, int *end);
 
+/* Whether M is positive definite at all values: that of a solid, a sum of elements and disks of positive mass, unless a mass is a
+ * parameter or a cause may take mass away. A factor of M would be a third of a solution. */
+int model_mass_is_positive(const struct rotor_model *model);
+
 /* A solid for motions u = V q alone: `equations` in q, with rows of V for its sensors. */
 struct basis_model {
     rotid_model equations; /* user points to this struct: do not copy it */

@@ -175,6 +175,7 @@ static int state_in_basis(struct pool *pool, const struct in_basis *in, int s, s
     struct functional *f = &part->functional;
     int n = model->equations.n, count = in->count[s];
     double *v = in->v[s];
+    f->prediction.full.panels.vouched = model_mass_is_positive(model);
     struct basis_model *basis = POOL_NEW(pool, struct basis_model);
     rotid_measured *own = POOL_NEW(pool, rotid_measured);
     if (!v) {

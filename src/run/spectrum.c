@@ -22,16 +22,6 @@ struct task {
     const struct spectrum *near;
 };
 
-/* Whether M is a sum of elements and disks of positive mass: without causes, which may take mass away, and where no mass is a
- * parameter. Of a solid, a third of whose solution a factor of M would be. */
-static int mass_is_positive(const struct task *task)
-{
-    int only_moduli = discretisation_is_solid(models_discretisation(task->models)) && !task->rotor->neffect;
-    for (int p = 0; p < task->nparameter; p++)
-        only_moduli &= task->parameter[p].kind == PARAMETER_E || task->parameter[p].kind == PARAMETER_G;
-    return only_moduli;
-}
-
 /* What is kept of a solution: pairs from the rigid ones on. */
 struct solution {
     struct rotor_model *model;
@@ -65,8 +55,7 @@ static int full_model(struct pool *pool, struct pool *scratch, const struct task
     model->equations.nmodes = nshared;
     if (!status) {
         eigen_full_within(&prediction->full, task->within);
-        if (mass_is_positive(task))
-            prediction->full.panels.vouched = 1;
+        prediction->full.panels.vouched = model_mass_is_positive(model);
         status = prediction_compute(prediction, task->x);
     }
     if (!status && !task->rotor->neffect) /* before candidates are tried, one after the other */

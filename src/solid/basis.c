@@ -1,32 +1,56 @@
 /* A solid in a basis V: V'K V and V'M V without K and M. The field of a share, eight numbers in which K and M are linear, is the
- * same over most of a group: shares whose field and its rates are equal where the basis is made are a class, whose part of V'K V
- * is kept for a unit of each number. What differs from its class elsewhere, as where a zone has moved on, is added element by
- * element: V'K V is that of the mesh at all values. */
+ * same over most of a group: shares whose field and its rates are equal where the basis is made are a class. Its fields span few
+ * directions, two where E and G of an isotropic material move, and V'K V of each is made when the field first leaves those
+ * before. What differs from its class elsewhere, as where a zone has moved on, is added element by element: V'K V is that of the
+ * mesh at all values. */
 #include "linalg/linalg.h"
 #include "solid/solid.h"
 
 enum {
-    NUMBERS = sizeof(struct share) / sizeof(double), /* c11 c12 c13 c33 c44 c66, rho, stress */
+    NUMBERS = SOLID_FIELD, /* c11 c12 c13 c33 c44 c66, rho, stress */
     RHO = 6,
     CLASS_MOST = 48 /* shares of further ones are added element by element at all values */
 };
 
-/* k += V'E_k V and m += V'E_m V [count * count] of an element with this field */
-static void add_element(const struct solid_basis *basis, int e, const struct share *field, double *k, double *m)
+#define SPANNED 1e-13 /* of a field: what is left beside its directions is rounding */
+
+/* Y += E V of an element with this field, for K and for M */
+static void add_image(struct solid_basis *basis, int e, const struct share *field)
 {
     const struct solid *solid = basis->solid;
-    double part[2][SOLID_DOFS * SOLID_DOFS], *local = basis->work, *sum[2] = {k, m};
-    int has[2], dof[SOLID_DOFS], count = basis->count;
+    double part[2][SOLID_DOFS * SOLID_DOFS], *local = basis->work, *product = local + (ptrdiff_t)SOLID_DOFS * basis->count;
+    int has[2], dof[SOLID_DOFS], n = solid->mesh.ndof;
     solid_element_matrices(solid, e, field, part[0], part[1], &has[0], &has[1]);
     for (int i = 0; i < 2; i++) {
+        struct solid_image *image = &basis->image[i];
         if (!has[i])
             continue;
         solid_tie_element(solid, &solid->mesh.element[e], part[i], dof);
-        for (int j = 0; j < count; j++)
+        for (int j = 0; j < basis->count; j++)
             for (int d = 0; d < SOLID_DOFS; d++)
-                local[d + SOLID_DOFS * j] = dof[d] < 0 ? 0 : basis->v[dof[d] + (ptrdiff_t)j * solid->mesh.ndof];
-        product_congruence(SOLID_DOFS, count, part[i], local, local + (ptrdiff_t)SOLID_DOFS * count, sum[i]);
+                local[d + SOLID_DOFS * j] = dof[d] < 0 ? 0 : basis->v[dof[d] + (ptrdiff_t)j * n];
+        product_multiply(SOLID_DOFS, basis->count, SOLID_DOFS, part[i], local, product);
+        for (int d = 0; d < SOLID_DOFS; d++) {
+            if (dof[d] < 0)
+                continue;
+            image->from = dof[d] < image->from ? dof[d] : image->from;
+            image->end = dof[d] >= image->end ? dof[d] + 1 : image->end;
+            for (int j = 0; j < basis->count; j++)
+                image->y[dof[d] + (ptrdiff_t)j * n] += product[d + SOLID_DOFS * j];
+        }
     }
+}
+
+/* sum [count * count] += V'Y of K or M, and Y := 0 */
+static void take_image(const struct solid_basis *basis, struct solid_image *image, double *sum)
+{
+    int n = basis->solid->mesh.ndof, rows = image->end - image->from, count = basis->count;
+    if (rows > 0)
+        product_add_transposed(count, count, rows, n, basis->v + image->from, image->y + image->from, sum);
+    for (int j = 0; j < count && rows > 0; j++)
+        memset(image->y + image->from + (ptrdiff_t)j * n, 0, (size_t)rows * sizeof *image->y);
+    image->from = n;
+    image->end = 0;
 }
 
 /* The class of every share by its field and rates, probe [1 + nparameter]: -1 beyond CLASS_MOST. */
@@ -61,79 +85,99 @@ static int classify(struct pool *pool, struct solid_basis *basis)
     return ROTID_OK;
 }
 
-/* The parts of the classes of an element: of the numbers of one that moves, else of K and M as they are. */
-static void add_to_classes(struct solid_basis *basis, int e)
+/* part [count * count] := what the shares of a class make of K or M (which 0, 1) with this field. */
+static void part_of_class(struct solid_basis *basis, int class, int which, const double *number, double *part)
 {
-    const int *of = &basis->class_of[(ptrdiff_t)e * SHARES];
-    ptrdiff_t square = (ptrdiff_t)basis->count * basis->count;
-    for (int c = 0; c < basis->nclass; c++) {
-        const struct solid_class *class = &basis->class[c];
+    struct share of_class;
+    memcpy(&of_class, number, sizeof of_class);
+    for (int e = 0; e < basis->solid->mesh.nelement; e++) {
         struct share field[SHARES] = {{.rho = 0}};
-        for (int i = 0; i < (class->moves ? NUMBERS : 1); i++) {
-            double unit[NUMBERS] = {0};
-            int any = 0;
-            unit[i] = 1;
-            for (int s = 0; s < SHARES; s++)
-                if (of[s] == c) {
-                    field[s] = class->now;
-                    if (class->moves)
-                        memcpy(&field[s], unit, sizeof unit);
-                    any = 1;
-                }
-            if (any && class->moves)
-                add_element(basis, e, field, class->part + (ptrdiff_t)i * square, class->part + (ptrdiff_t)i * square);
-            else if (any)
-                add_element(basis, e, field, class->part, class->part + square);
-        }
+        int any = 0;
+        for (int s = 0; s < SHARES; s++)
+            if (basis->class_of[e * SHARES + s] == class) {
+                field[s] = of_class;
+                any = 1;
+            }
+        if (any)
+            add_image(basis, e, field);
     }
+    take_image(basis, &basis->image[which], part);
 }
 
 int solid_basis_new(struct pool *pool, struct solid *solid, int count, const double *v, struct solid_basis *basis)
 {
-    size_t square = (size_t)count * (size_t)count;
+    size_t square = (size_t)count * (size_t)count, n = (size_t)solid->mesh.ndof;
     *basis = (struct solid_basis){.solid = solid, .count = count, .v = v};
     basis->class = POOL_ARRAY(pool, struct solid_class, CLASS_MOST);
     basis->class_of = POOL_ARRAY(pool, int, (size_t)solid->mesh.nelement *SHARES);
     basis->work = POOL_ARRAY(pool, double, (size_t)(2 * SOLID_DOFS) * (size_t)count);
     basis->sum = POOL_ARRAY(pool, double, 2 * square);
-    if (!basis->class || !basis->class_of || !basis->work || !basis->sum)
+    for (int i = 0; i < 2; i++)
+        basis->image[i] = (struct solid_image){POOL_ARRAY(pool, double, n *(size_t)count), solid->mesh.ndof, 0};
+    if (!basis->class || !basis->class_of || !basis->work || !basis->sum || !basis->image[0].y || !basis->image[1].y)
         return ROTID_ERROR_MEMORY;
     int status = classify(pool, basis);
     for (int c = 0; c < basis->nclass && !status; c++) {
         basis->class[c].part = POOL_ARRAY(pool, double, (basis->class[c].moves ? NUMBERS : 2) * square);
         status = basis->class[c].part ? ROTID_OK : ROTID_ERROR_MEMORY;
     }
-    for (int e = 0; e < solid->mesh.nelement && !status; e++)
-        add_to_classes(basis, e);
     return status;
 }
 
-/* sum [2 * count * count] := what the classes make of K and M, or of their derivatives, with `now` of each */
+static void add_scaled(int n, double by, const double *x, double *sum)
+{
+    for (int i = 0; i < n; i++)
+        sum[i] += by * x[i];
+}
+
+/* sum [2 * count * count] += what class c makes of K and M with the field `number` */
+static void add_class(struct solid_basis *basis, int c, double number[NUMBERS])
+{
+    struct solid_class *class = &basis->class[c];
+    int square = basis->count * basis->count, most = class->moves ? NUMBERS - 1 : 1;
+    double rho = number[RHO], of_mass[NUMBERS] = {0};
+    of_mass[RHO] = 1;
+    if (rho != 0 && !class->has_mass)
+        part_of_class(basis, c, 1, of_mass, class->part);
+    class->has_mass |= rho != 0;
+    if (rho != 0)
+        add_scaled(square, rho, class->part, basis->sum + square);
+    number[RHO] = 0;
+    double rounding = SPANNED * sqrt(product_dot(NUMBERS, number, number));
+    for (int d = 0; d < most; d++) {
+        double *direction = class->direction[d], *part = class->part + (ptrdiff_t)(1 + d) * square;
+        if (d == class->ndirection) {
+            double left = sqrt(product_dot(NUMBERS, number, number));
+            if (!(left > rounding))
+                return;
+            for (int i = 0; i < NUMBERS; i++)
+                direction[i] = number[i] / left;
+            part_of_class(basis, c, 0, direction, part);
+            class->ndirection++;
+        }
+        double along = product_dot(NUMBERS, direction, number);
+        add_scaled(NUMBERS, -along, direction, number);
+        add_scaled(square, along, part, basis->sum);
+    }
+}
+
+/* sum := what the classes make of K and M, or of their derivatives, with `now` of each */
 static void sum_of_classes(struct solid_basis *basis, int p)
 {
     const struct solid *solid = basis->solid;
-    int square = basis->count * basis->count;
-    memset(basis->sum, 0, 2 * (size_t)square * sizeof *basis->sum);
+    memset(basis->sum, 0, 2 * (size_t)basis->count * (size_t)basis->count * sizeof *basis->sum);
     for (int c = 0; c < basis->nclass; c++) {
         struct solid_class *class = &basis->class[c];
         const struct solid_element *element = &solid->mesh.element[class->element];
         double number[NUMBERS];
-        if (!class->moves) {
-            for (int i = 0; i < 2 * square && p < 0; i++)
-                basis->sum[i] += class->part[i];
+        if (p >= 0 && !class->moves)
             continue;
-        }
-        if (p < 0)
-            solid_field_of_share(solid, element, class->share, &class->now);
-        else
+        if (p >= 0)
             (void)solid_field_rate(solid, element, class->share, solid->parameter[p], &class->now);
+        else if (class->moves)
+            solid_field_of_share(solid, element, class->share, &class->now);
         memcpy(number, &class->now, sizeof number);
-        for (int i = 0; i < NUMBERS; i++) {
-            const double *part = class->part + (ptrdiff_t)i * square;
-            double *sum = basis->sum + (i == RHO ? square : 0);
-            for (int j = 0; j < square && number[i] != 0; j++)
-                sum[j] += number[i] * part[j];
-        }
+        add_class(basis, c, number);
     }
 }
 
@@ -167,10 +211,11 @@ static void assemble(struct solid_basis *basis, int p, rotid_matrix *k, rotid_ma
     for (int e = 0; e < solid->mesh.nelement; e++) {
         solid_fields_of(solid, e, p, field);
         if (beside_class(basis, e, p, field, rest))
-            add_element(basis, e, rest, basis->sum, basis->sum + (ptrdiff_t)count * count);
+            add_image(basis, e, rest);
     }
     for (int i = 0; i < 2; i++) {
-        const double *sum = basis->sum + (ptrdiff_t)i * count * count;
+        double *sum = basis->sum + (ptrdiff_t)i * count * count;
+        take_image(basis, &basis->image[i], sum);
         for (int c = 0; c < count; c++)
             for (int r = c; r < count; r++)
                 a[i]->band[r - c + (ptrdiff_t)c * count] += (sum[r + c * count] + sum[c + r * count]) / 2;

@@ -327,11 +327,21 @@ void solid_spring_motion(const struct solid *solid, int i, double *v);
 
 /* Motions u = V q alone: K and M of q, exact for those motions at all values of the parameters. */
 
+#define SOLID_FIELD (sizeof(struct share) / sizeof(double)) /* numbers of a field */
+
 struct solid_class {
     int element, share; /* the first one of it */
     int moves;          /* with a parameter */
     struct share now;   /* its field, or rate, at the last assembly; of one that does not move the field */
-    double *part;       /* [8 * count * count] of a unit of each number of the field; of one that does not move K and M */
+    int has_mass, ndirection;
+    double direction[SOLID_FIELD][SOLID_FIELD]; /* orthonormal: the field without rho is a sum of the first ndirection */
+    double
+        *part; /* [8 * count * count] V'M V of rho 1, where has_mass, and V'K V of each direction; 2 of one that does not move */
+};
+
+struct solid_image {
+    double *y; /* [ndof * count] */
+    int from, end;
 };
 
 struct solid_basis {
@@ -340,7 +350,8 @@ struct solid_basis {
     const double *v; /* [ndof * count] V */
     int nclass;
     struct solid_class *class;
-    int *class_of; /* [nelement * SHARES], -1: none */
+    int *class_of;               /* [nelement * SHARES], -1: none */
+    struct solid_image image[2]; /* K V and M V of elements, rows from ... end - 1, until V' is multiplied to it */
     double *work, *sum;
 };
 
