@@ -148,7 +148,8 @@ struct turned {
 static void turn(const struct turned *t, const rotid_matrix *from, rotid_matrix *to)
 {
     double sum[host_n * host_n] = {0}, work[host_n * host_n];
-    product_congruence(host_n, host_n, dense_of(&test_pool, from), t->v, work, sum);
+    product_multiply(host_n, host_n, host_n, dense_of(&test_pool, from), t->v, work);
+    product_add_transposed(host_n, host_n, host_n, host_n, t->v, work, sum);
     host_put(to, 1, sum);
 }
 
