@@ -1250,7 +1250,7 @@ ROTID_API int rotid_spectrum_compute(const rotid_deck *deck, const double *x, in
                                      char *failure, rotid_spectrum **spectrum);
 /* The same with `beside`: the rotor as a beam and as a solid at these values, whichever of them the deck asks for, and the moduli
  * that a beam fitted to the frequencies of the solid would have. ROTID_ERROR_SECTION where a part of the rotor has no meaning in
- * the other one; failure says which. */
+ * the other one; failure says which. Cancelled: ROTID_STOP_CANCELLED and *spectrum NULL. */
 ROTID_API int rotid_spectrum_beside(const rotid_deck *deck, const double *x, int nmode, const rotid_environment *environment,
                                     char *failure, rotid_spectrum **spectrum);
 /* rotid_spectrum_compute of the modes of a type, whichever type the deck states for its measured ones: ROTID_BENDING,

@@ -105,6 +105,33 @@ UNIT_TEST(a_fit_evaluates_nothing_more)
 
 /* ------------------------------------------------------------------------------------------------ decks */
 
+UNIT_TEST(a_beam_beside_a_solid_is_whole_or_stopped)
+{
+    static const char text[] =
+        "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"
+        "*MATERIAL, NAME=cast\n*ELASTIC, TYPE=SHEAR\n1e11, 4e10, 0.3\n*DENSITY\n7850\n"
+        "*SHAFT, NAME=left, MATERIAL=steel\n0.4, 0.1, 0, 8\n*SHAFT, NAME=core, MATERIAL=cast\n0.5, 0.2, 0, 8\n";
+    rotid_deck *deck;
+    assert_status(rotid_deck_read_text(sizeof text - 1, text, "deck", NULL, 0, NULL, NULL, NULL, &deck), ROTID_OK);
+    int ended = 0, k = 1;
+    for (; !ended; k++) {
+        struct host host = {.stop_at = k, .once = 1};
+        const rotid_environment environment = environment_of(&host, NULL);
+        rotid_spectrum *s;
+        int status = rotid_spectrum_beside(deck, NULL, 4, &environment, NULL, &s);
+        ended = !host.said;
+        assert_int_equal(status, ended ? ROTID_OK : ROTID_STOP_CANCELLED);
+        assert_int_equal(host.polls_after, 0);
+        if (ended)
+            assert_int_equal(s->beside->nmoduli, 2);
+        else
+            assert_null(s);
+        rotid_spectrum_free(s);
+    }
+    assert_true(k > 3);
+    rotid_deck_free(deck);
+}
+
 UNIT_TEST(an_identification_ends_with_the_best_point_so_far)
 {
     rotid_deck *deck = bench_deck(PAPER);

@@ -227,8 +227,12 @@ static int fit_beam(struct pool *pool, const struct job *job, const struct both 
     status = fitted.measurement.nmode < fitted.unknowns.nparameter
                  ? ROTID_ERROR_RANK
                  : identify_run(pool, &fitted, IDENTIFY_BARE, environment, &quiet, &found);
-    if (status == ROTID_ERROR_MEMORY)
+    if (!status && found.fit->status == ROTID_STOP_CANCELLED)
+        status = ROTID_STOP_CANCELLED;
+    if (status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED) {
+        rotid_fit_free(found.fit);
         return status;
+    }
     /* the frequencies have no noise: intervals, which the misfit widens, and what they call undetermined, say nothing here */
     if (status || !found.fit->converged || found.fit->any_at_bound || !isfinite(found.fit->condition_number))
         say_why_not(&fitted, status ? NULL : found.fit, notes);

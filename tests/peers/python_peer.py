@@ -523,6 +523,10 @@ def from_nastran(checks, folder):
         "a grid that is not there": (bulk().replace("GRID,4,,1000.,0.,0.\n", ""), "GRID 4 is not there"),
         "a property that is not there": (bulk().replace("CBAR,1,1,", "CBAR,1,8,"), "CBAR 1: property 8 is not there"),
         "a factor on all masses": (bulk().replace("BEGIN BULK", "BEGIN BULK\nPARAM,WTMASS,.00259"), "PARAM WTMASS: multiplies all masses by 0.00259"),
+        "a factor on all masses in the case control": (bulk().replace("BEGIN BULK", "SUBCASE 1\n PARAM,GRDPNT,0\n PARAM,WTMASS,.00259 $ inch\n PARAM,K6ROT,1.\nBEGIN BULK"),
+                                                       "PARAM WTMASS: multiplies all masses by .00259"),
+        "a part by itself": (bulk().replace("CBAR,3,3,4,3,", "BEGIN SUPER=1\nCBAR,3,3,4,3,"), "BEGIN SUPER=1: begins a part"),
+        "a place that is no number": (bulk().replace("GRID,2,,300.,", "GRID,2,,nan,"), "GRID 2: is at [nan, 0.0, 0.0]"),
         "no bulk data": ("hello world, this is no deck\n", str(path)),
     }
     for name, (text, part) in wrong.items():
@@ -608,6 +612,9 @@ def from_abaqus(checks, folder):
     path.write_text(ABAQUS.replace("2.1E11, 0.3", "2.1E11, 0.3, 20.\n1.6E11, 0.3, 500."))
     said = written(rotid.from_abaqus(path), deck)
     checks.true("from Abaqus: the temperature of E is said", any("of E at 2 temperatures the first one, 2.1e+11, is taken" in s for s in said), said)
+    path.write_text(ABAQUS.replace("7850.,", "78500.,"))
+    said = written(rotid.from_abaqus(path), deck)
+    checks.true("from Abaqus: a density of other units is said", any("as a deck: density" in s for s in said), said)
     path.write_text(ABAQUS.replace("*FREQUENCY", "*BOUNDARY\n1, 1, 3\n*FREQUENCY"))
     said = written(rotid.from_abaqus(path), deck)
     checks.true("from Abaqus: *BOUNDARY of a step is said to be left out", any("BOUNDARY" in s for s in said), said)
@@ -624,6 +631,7 @@ def from_abaqus(checks, folder):
         "a spring aslant": (re.sub(r"(?m)^(\d), 0., 0., (\S+)$", r"\1, \2, 0., \2", ABAQUS).replace("SUPPORT\n1\n", "SUPPORT\n3\n").replace("0.02, 0.02, 0.03", "0.02, 0.02, 0.02"),
                             "acts on degree of freedom 3"),
         "another element": (ABAQUS.replace("TYPE=B31, ELSET=LEFT", "TYPE=B32, ELSET=LEFT"), "line 8: *ELEMENT: TYPE=B32"),
+        "a stress at the start": (ABAQUS.replace("*STEP", "*INITIAL CONDITIONS, TYPE=STRESS\nLEFT, 1e7\n*STEP"), "*INITIAL CONDITIONS: TYPE=STRESS changes the frequencies"),
         "a card that it does not know": (ABAQUS.replace("*STEP", "*EQUATION\n1\n*STEP"), "*EQUATION: has no place in a deck"),
         "a section that is not round": (ABAQUS.replace("SECTION=CIRC", "SECTION=RECT"), "line 22: *BEAM SECTION: SECTION=RECT is not round"),
         "an ellipse": (ABAQUS.replace("0.10, 0.10", "0.10, 0.08"), "line 23: *BEAM SECTION: has the diameters"),

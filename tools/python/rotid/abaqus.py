@@ -12,7 +12,7 @@ CARD_OF = {"MASS": "MASS", "ROTARYI": "ROTARY INERTIA", "SPRING1": "SPRING"}  # 
 # cards that say nothing of what the rotor is
 PASSED = {"HEADING", "PREPRINT", "RESTART", "NSET", "AMPLITUDE"}
 LEFT_OUT = {"BOUNDARY": "supports: state them as *SPRING", "TRANSVERSE SHEAR STIFFNESS": "the shear stiffness follows from the section",
-            "INITIAL CONDITIONS": "temperatures"}
+            "INITIAL CONDITIONS": "frequencies do not depend on them"}
 
 
 class Card:
@@ -100,6 +100,8 @@ class Reader:
             if card.name in ("STEP", "END STEP"):
                 in_step = card.name == "STEP"
             elif card.name in LEFT_OUT:  # in a step as well
+                if card.name == "INITIAL CONDITIONS" and card.options.get("TYPE", "").upper() == "STRESS":
+                    card.wrong("TYPE=STRESS changes the frequencies, expected none: a deck has *PRELOAD")
                 self.notes[f"*{card.name} is left out: {LEFT_OUT[card.name]}"] = None
             elif in_step or card.name in PASSED:
                 continue

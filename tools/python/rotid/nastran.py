@@ -36,15 +36,19 @@ def from_nastran(source, units="SI"):
     left = sorted(set(model.card_count) & {"SPC", "SPC1", "SPCADD", "MPC"}) + ["PS of GRID"] * any(grid.ps for grid in model.nodes.values())
     if left:
         notes[f"{', '.join(left)} are left out: state supports as *SPRING"] = None
-    factor = model.params["WTMASS"].values[0] if "WTMASS" in model.params else 1
+    factor = next(factors_on_masses(model), 1)
     if factor != 1:
         refuse(source, "PARAM WTMASS", f"multiplies all masses by {factor}, expected masses and densities without a factor")
+    for kind, number, _ in model.superelement_models:
+        refuse(source, f"BEGIN {kind}={number}", "begins a part of the model by itself, expected all in one BEGIN BULK")
     place = {}
     for node, grid in model.nodes.items():
         try:
             place[node] = np.array([in_si(x, scale["length"]) for x in grid.get_position_no_xref(model)])
         except Exception as error:
             refuse(source, f"GRID {node}", f"its place is not known: {error}")
+        if not np.all(np.isfinite(place[node])):
+            refuse(source, f"GRID {node}", f"is at {place[node].tolist()}, expected numbers")
     materials, beams = {}, []
     for number, element in sorted(model.elements.items()):
         beams.append(beam_of(source, model, number, element, materials, scale, notes))
@@ -54,6 +58,16 @@ def from_nastran(source, units="SI"):
             if node not in place:
                 refuse(source, beam.where, f"GRID {node} is not there")
     return rotor_of(source, f"From Nastran bulk data {str(source).rsplit('/', 1)[-1]}", place, beams, masses, [], notes)
+
+
+def factors_on_masses(model):
+    """PARAM,WTMASS of the bulk data, and of the case control, where pyNastran keeps one PARAM of a subcase."""
+    if "WTMASS" in model.params:
+        yield model.params["WTMASS"].values[0]
+    for line in model.case_control_lines or []:
+        words = line.partition("$")[0].replace(",", " ").split()
+        if [word.upper() for word in words[:2]] == ["PARAM", "WTMASS"]:
+            yield " ".join(words[2:])
 
 
 def has_bulk(source):

@@ -253,7 +253,7 @@ def compare(meant, geometry):
 
 def write_deck(rotor, path, program=None):
     """Writes the rotor as a deck. The deck is read back by `rotid check` and compared with what was meant before it is in place: whole
-    or not there. What of the source is not in the deck is warned of. RotidError where the rotor has no deck; returns the path."""
+    or not there. What of the source is not in the deck is warned of, and what `rotid check` warns of. RotidError where the rotor has no deck; returns the path."""
     text, meant = deck_of(rotor)
     path = os.fspath(path)
     temporary = None
@@ -264,7 +264,7 @@ def write_deck(rotor, path, program=None):
             stream.write(text)
             stream.flush()
             os.fsync(stream.fileno())
-        read_back(rotor, temporary, meant, program)
+        doubtful = read_back(rotor, temporary, meant, program)
         mask = os.umask(0)
         os.umask(mask)
         os.chmod(temporary, 0o666 & ~mask)
@@ -275,19 +275,20 @@ def write_deck(rotor, path, program=None):
     finally:
         if temporary and os.path.exists(temporary):
             os.unlink(temporary)
-    for note in rotor.notes:
+    for note in [*rotor.notes, *doubtful]:
         warnings.warn(str(Message(note, "note", str(rotor.source))), stacklevel=2)
     return path
 
 
 def read_back(rotor, deck, meant, program):
-    code, out, err = call(program, "check", deck, "--json", "-", "--quiet")
+    code, out, err = call(program, "check", deck, "--json", "-")
     if code or not out.strip():
         raise RotidError([Message(f"as a deck: {m.text}", file=str(rotor.source)) for m in said(err) if m.severity == "error"]
                          or [f"rotid check ended with exit code {code}"], code or 3)
     wrong = compare(meant, json.loads(out)["geometry"])
     if wrong:
         refuse(rotor.source, None, f"the deck was read back and is another rotor ({wrong}), expected what was meant: nothing was written")
+    return [f"as a deck: {m.text}" for m in said(err) if m.severity == "warning"]
 
 
 def finite(value):
