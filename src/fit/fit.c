@@ -501,7 +501,7 @@ static int begin_near(struct pool *pool, struct fit *fit, const struct fit_probl
         struct pool *own = &of_round[round % 2];
         pool_close(own);
         pool_open(own, pool->allocator);
-        status = open_near(own, fit, problem, round == 0, &near, &there);
+        status = open_near(own, fit, problem, round == 0 || stands, &near, &there);
         if (status || !there)
             break;
         memcpy(fit->y, best, (size_t)n * sizeof *best);

@@ -395,6 +395,11 @@ double discrete_passage(const struct discrete *discrete)
     return longest * pow(largest_share(rotor, discrete->as == AS_SOLID_TORSION), 0.25);
 }
 
+double discrete_members_error(const struct discrete *discrete, const double *u, double lambda)
+{
+    return is_solid(discrete) ? members_mesh_error(&discrete->solid, u, lambda) : 0;
+}
+
 int discrete_transfer(const struct discrete *from, const double *u, const struct discrete *to, double *v)
 {
     if (from->as != to->as)

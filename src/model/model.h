@@ -116,6 +116,9 @@ struct mesh_limit discrete_mesh_limit(enum discretisation as, const struct rotor
  * that locks (nu near 1/2). 0: of a beam, and of a solid without corners, whose coarse mesh has no element of the same length. */
 double discrete_passage(const struct discrete *discrete);
 
+/* members_mesh_error of a solid, 0 of beams, in the motion u of eigenvalue lambda, u'M u = 1. */
+double discrete_members_error(const struct discrete *discrete, const double *u, double lambda);
+
 /* v := the motion u of the same rotor on another mesh, a beginning for its modes: of a solid any, of a beam one whose elements
  * are those of the first one cut into equal parts, values of parameters being those of its last assembly. Returns 0 where there
  * is no such way: to a beam's coarser mesh. */

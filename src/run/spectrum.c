@@ -325,9 +325,11 @@ static int compute(struct pool *pool, const struct task *task, int reduction, in
         int partner = coarse_first ? partner_of(&own, j) : partner_from(&other, count, j);
         s->other_hz[j] = other.hz[other.model->equations.nrigid + j];
         lead(hz, &other, partner, limit.share, limit.counts, s, j);
-        /* elements along the axis of a solid with corners are in both meshes, whose distance does not tell (k h)^4/1440 */
-        double *error = &s->mesh_error_percent[j];
-        *error = copysign(limit.may_be_off * fabs(*error) + 100 * pow(TWO_PI * passage * hz, 4) / 1440, *error);
+        /* elements along the axis of a solid with corners, and of members, are in both meshes, whose distance does not tell
+         * (k h)^4/1440 */
+        double *error = &s->mesh_error_percent[j], omega = TWO_PI * hz;
+        double members = discrete_members_error(&own.model->discrete, s->phi + (ptrdiff_t)j * own.size, omega * omega);
+        *error = copysign(limit.may_be_off * fabs(*error) + 100 * (pow(passage * omega, 4) / 1440 + members), *error);
     }
     if (limit.counts && coarse_first)
         status = refine_apart(pool, task, &limit, &own, s, &missed);

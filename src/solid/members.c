@@ -123,18 +123,17 @@ static void add_stretch(const struct solid *solid, int i, double stiffness, doub
         motion_add(m, inertia / 3, &w[0], &w[1]);
 }
 
-/* rho S and rho I of rods that follow the section, from half-way to half-way between lines; their tension is in the axial force
- * of the section (rotor_axial_force), where it balances what they press with */
+/* rho S and rho I of rods that follow the section, int rho S v^2 dz by Simpson's rule in each slice; their tension is in the
+ * axial force of the section (rotor_axial_force), where it balances what they press with */
 static void add_following(const struct solid *solid, const struct element *q, int from, int to, const struct target *m)
 {
-    const double *z = solid->mesh.z;
-    for (int l = from; l <= to; l++) {
-        const struct solid_line *line = &solid->line[l];
-        double length = ((l < to ? z[l + 1] : z[l]) - (l > from ? z[l - 1] : z[l])) / 2;
+    for (int i = 3 * from; i < 3 * to; i++) {
+        const struct solid_line *at = &solid->inside[i];
+        double length = (solid->mesh.z[i / 3 + 1] - solid->mesh.z[i / 3]) * (i % 3 == 1 ? 4 : 1) / 6;
         if (m && q->rhos != 0)
-            motion_add(m, q->rhos * length, &line->v, &line->v);
+            motion_add(m, q->rhos * length, &at->v, &at->v);
         if (m && q->rhoi != 0)
-            motion_add(m, q->rhoi * length, &line->theta, &line->theta);
+            motion_add(m, q->rhoi * length, &at->theta, &at->theta);
     }
 }
 
@@ -241,11 +240,37 @@ void members_moments(const struct solid *solid, double moment[3])
                mass = member.material->rho * member.section.mass_area * length;
         moment[0] += mass;
         moment[1] += mass * (a + b) / 2;
-        for (int l = from; l < to && solid_mesh_follows(rotor, i); l++) /* half of it on each of its lines */
-            moment[2] += mass * pow(solid->mesh.z[l + 1] - solid->mesh.z[l], 3) / (6 * length);
         moment[2] += mass * ((a + b) * (a + b) / 4 + length * length / 12) +
                      member.material->rho * (member.section.mass_inertia + member.pitch) * length;
     }
+}
+
+double members_mesh_error(const struct solid *solid, const double *u, double lambda)
+{
+    const struct solid_mesh *mesh = &solid->mesh;
+    double sum = 0;
+    for (int i = 0; i < solid->rotor.ntierod + solid->rotor.nbars && mesh->type == MODE_BENDING; i++) {
+        struct member member = member_of(solid, i);
+        struct element element = element_of(solid, &member, 1);
+        int from, to;
+        solid_mesh_member(&solid->rotor, mesh, i, &from, &to);
+        for (int l = from; l < to && !solid_mesh_follows(&solid->rotor, i); l++) {
+            double ek[16], em[16], q[4], share = 0;
+            struct end ends[2];
+            element.length = mesh->z[l + 1] - mesh->z[l];
+            element_matrices(&element, ek, em);
+            for (int p = 0; p < 4; p++) {
+                end_of(solid, i, l + p / 2, &ends[p / 2]);
+                q[p] = motion_value(&ends[p / 2].motion[p % 2], u);
+            }
+            for (int p = 0; p < 4; p++)
+                for (int r = 0; r < 4; r++)
+                    share += q[p] * em[p + 4 * r] * q[r];
+            double l2 = element.length * element.length;
+            sum += share * lambda * element.rhos * l2 * (l2 / (1440 * element.ei) + 1 / (24 * element.kgs));
+        }
+    }
+    return sum;
 }
 
 double members_deflection_at(const struct solid *solid, int i, const double *u, double z)

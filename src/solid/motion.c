@@ -94,6 +94,73 @@ int motion_of_section(struct pool *pool, const struct rotor *rotor, const struct
     return status;
 }
 
+/* U of node 5 (V/r, W) of an element whose sensor has taken that degree of freedom: (sensor - n1 U1 - n2 U2)/n5 */
+static void add_surface_term(const struct solid_mesh *mesh, const struct solid_element *element, int node, int component,
+                             double w, struct motion *motion)
+{
+    const double *at = element->at_sensor;
+    if (component == (int)mesh->type && node == 5 && element->sensor >= 0) {
+        add_term(motion, mesh->node[element->node[5]].dof[component], w / at[1]);
+        add_term(motion, mesh->node[element->node[1]].dof[component], -w * at[0] / at[1]);
+        add_term(motion, mesh->node[element->node[2]].dof[component], -w * at[2] / at[1]);
+        return;
+    }
+    const struct solid_node *own = &mesh->node[element->node[node]];
+    add_term(motion, own->dof[component], w);
+}
+
+/* Shape functions of an element and dr/dx at y = -1, 0 or 1, of the nodes there alone, or the band would be twice as wide: linear
+ * half-way. Returns r. */
+static double across_element(const struct solid_mesh *mesh, const struct solid_element *element, double x, int y, double *n,
+                             double *slope)
+{
+    double by_x[SOLID_NODES] = {0}, by_y[SOLID_NODES], r = 0;
+    shape_of_element(x, y, n, by_x, by_y);
+    for (int i = 0; i < SOLID_NODES && !y; i++) {
+        int side = i == 5 ? 1 : i == 7 ? -1 : 0;
+        n[i] = side ? (1 + side * x) / 2 : 0;
+        by_x[i] = side / 2.0;
+    }
+    *slope = 0;
+    for (int i = 0; i < SOLID_NODES; i++) {
+        r += n[i] * mesh->node[element->node[i]].r;
+        *slope += by_x[i] * mesh->node[element->node[i]].r;
+    }
+    return r;
+}
+
+int motion_in_slice(struct pool *pool, const struct rotor *rotor, const struct solid_mesh *mesh, int slice, int y,
+                    struct motion *v, struct motion *theta)
+{
+    int first = mesh->first[slice], end = mesh->first[slice + 1], most = SOLID_NODES * (end - first);
+    double stiffest = 0, area = 0, inertia = 0;
+    int status = motion_new(pool, 2 * most, v);
+    if (!status)
+        status = motion_new(pool, most, theta);
+    for (int e = first; e < end; e++)
+        stiffest = fmax(stiffest, rotor->group[mesh->element[e].group].material.e);
+    for (int e = first; e < end && !status; e++) {
+        const struct solid_element *element = &mesh->element[e];
+        int points = rotor->group[element->group].material.e >= COVER * stiffest ? 3 : 0;
+        for (int g = 0; g < points; g++) {
+            double n[SOLID_NODES], slope, r = across_element(mesh, element, place[g], y, n, &slope), w = weight[g] * slope * r;
+            area += w;
+            inertia += w * r * r;
+            for (int i = 0; i < SOLID_NODES; i++) {
+                const struct solid_node *node = &mesh->node[element->node[i]];
+                add_surface_term(mesh, element, i, 0, w * n[i] / 2, v);
+                add_term(v, node->dof[1], -sign_of(node, 1) * w * n[i] / 2);
+                add_term(theta, node->dof[2], w * r * n[i]);
+            }
+        }
+    }
+    for (int i = 0; i < v->count && !status; i++)
+        v->weight[i] /= area;
+    for (int i = 0; i < theta->count && !status; i++)
+        theta->weight[i] /= inertia;
+    return status;
+}
+
 int motion_axial(struct pool *pool, const struct solid_mesh *mesh, int line, double pitch, double reach, struct motion *w)
 {
     const int *nodes = mesh->line + 2 * (ptrdiff_t)line;
@@ -115,21 +182,6 @@ int motion_axial(struct pool *pool, const struct solid_mesh *mesh, int line, dou
     for (int i = 0; i < w->count && !status; i++)
         w->weight[i] *= (bends ? pitch : 1) / inertia;
     return status ? status : inertia > 0 ? ROTID_OK : ROTID_ERROR_SECTION;
-}
-
-/* U of node 5 (V/r, W) of an element whose sensor has taken that degree of freedom: (sensor - n1 U1 - n2 U2)/n5 */
-static void add_surface_term(const struct solid_mesh *mesh, const struct solid_element *element, int node, int component,
-                             double w, struct motion *motion)
-{
-    const double *at = element->at_sensor;
-    if (component == (int)mesh->type && node == 5 && element->sensor >= 0) {
-        add_term(motion, mesh->node[element->node[5]].dof[component], w / at[1]);
-        add_term(motion, mesh->node[element->node[1]].dof[component], -w * at[0] / at[1]);
-        add_term(motion, mesh->node[element->node[2]].dof[component], -w * at[2] / at[1]);
-        return;
-    }
-    const struct solid_node *own = &mesh->node[element->node[node]];
-    add_term(motion, own->dof[component], w);
 }
 
 void motion_of_surface(const struct solid_mesh *mesh, double z, int component, int by_place, int *dof, double *w,

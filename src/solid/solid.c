@@ -493,6 +493,12 @@ static int build_lines(struct pool *pool, struct solid *solid, int *failed)
     for (int i = 0; i < rotor->ntierod && !status; i++) {
         *failed = rotor->ngroup + i;
         solid_mesh_member(rotor, &solid->mesh, i, &from, &to);
+        for (int g = 3 * from; g < 3 * to && !status && solid->mesh.type == MODE_BENDING && solid_mesh_follows(rotor, i); g++)
+            if (!solid->inside[g].v.count)
+                status =
+                    motion_in_slice(pool, rotor, &solid->mesh, g / 3, g % 3 - 1, &solid->inside[g].v, &solid->inside[g].theta);
+        if (status)
+            return status;
         double pitch = rotor->tierod[i].pitch, reach = WASHER * rotor->tierod[i].diameter / 2;
         struct motion *stretch = &solid->stretch[2 * (ptrdiff_t)i];
         status = motion_axial(pool, &solid->mesh, from, pitch, reach, &stretch[0]);
@@ -612,8 +618,9 @@ int solid_build(struct pool *pool, const struct rotor *rotor, int nparameter, co
         return status;
     solid->integrals = POOL_ARRAY(pool, struct integrals, solid->mesh.nelement);
     solid->line = POOL_ARRAY(pool, struct solid_line, solid->mesh.nslice + 1);
+    solid->inside = POOL_ARRAY(pool, struct solid_line, 3 * (size_t)solid->mesh.nslice);
     solid->stretch = POOL_ARRAY(pool, struct motion, 2 * rotor->ntierod);
-    if (!solid->integrals || !solid->line || !solid->stretch)
+    if (!solid->integrals || !solid->line || !solid->inside || !solid->stretch)
         return ROTID_ERROR_MEMORY;
     for (int e = 0; e < solid->mesh.nelement; e++)
         integrals_of(&solid->mesh, &solid->mesh.element[e], &solid->integrals[e]);

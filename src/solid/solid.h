@@ -181,6 +181,10 @@ struct motion {
 int motion_of_section(struct pool *pool, const struct rotor *rotor, const struct solid_mesh *mesh, int line, struct motion *v,
                       struct motion *theta);
 
+/* The same in bending at the left end of a slice (y -1), half-way along it (0) or at its right end (1), without covers there. */
+int motion_in_slice(struct pool *pool, const struct rotor *rotor, const struct solid_mesh *mesh, int slice, int y,
+                    struct motion *v, struct motion *theta);
+
 /* W of a line at a pitch radius as the annulus pitch -+ reach tilts: pitch int W r^2 dr / int r^3 dr, which is theta pitch where
  * the section stays plane; in torsion and along the axis the mean of V/r and W there. A load on a circle would sink in without
  * limit. ROTID_OK, ROTID_ERROR_MEMORY, or ROTID_ERROR_SECTION
@@ -223,6 +227,7 @@ struct solid {
     struct solid_mesh mesh;
     struct integrals *integrals; /* [nelement] */
     struct solid_line *line;     /* [nslice + 1] */
+    struct solid_line *inside;   /* [3 nslice] of the section at the ends of a slice and half-way, where rods follow it */
     struct motion *stretch;      /* [2 ntierod] W at the pitch radius of both ends */
     int nfar, *far;              /* their degrees of freedom, which meet across the band */
     int nparameter;
@@ -374,8 +379,9 @@ struct stop {
 
 /* Tie rods and bars beside a solid: chains of beam elements from line to line of the mesh, which bend by themselves. Tie rods
  * move with the section at both ends and are stretched by W at their pitch radius there; bars move with the section at their
- * centre. Tie rods of one element move with the section everywhere (solid_mesh_follows): their mass and tension act line by line,
- * and their own bending stiffness, below a thousandth of that of what they press together, is left out. */
+ * centre. Tie rods of one element move with the section everywhere (solid_mesh_follows): their mass acts on the ends and
+ * the middle of each slice, and their own bending stiffness, below a thousandth of that of what they press together, is left out.
+ */
 
 /* Adds to K and M, or for p >= 0 their derivatives with respect to solid->parameter[p]; the matrices may be NULL. */
 void members_assemble(const struct solid *solid, int p, const struct target *k, const struct target *m);
@@ -385,6 +391,11 @@ void members_gyroscopic(const struct solid *solid, const struct target *p);
 
 /* Adds moments of mass about the left end, as attached_moments. */
 void members_moments(const struct solid *solid, double moment[3]);
+
+/* How far the elements of members that bend by themselves leave a frequency above its limit, relative to it: the sum of
+ * T_e lambda m l^2 (l^2/(1440 EI) + 1/(24 kGS)) over elements of length l and mass m a length, T_e the share of one in u'M u: an
+ * element follows a cubic, and the mean of the shear force. */
+double members_mesh_error(const struct solid *solid, const double *u, double lambda);
 
 /* Deflection of member i at z, in the motion u: cubic between lines, by v and theta there. */
 double members_deflection_at(const struct solid *solid, int i, const double *u, double z);
