@@ -131,6 +131,23 @@ POOL_TEST(a_solid_that_explains_its_data_is_adequate)
     diagnose_free(&d);
 }
 
+/* A joint softens the slice beside a corner, which two meshes have of different lengths: its fits hold the mesh at the joint, not
+ * at the model without it, where a second cause was to make up for that. */
+POOL_TEST(a_joint_at_a_step_is_named_alone)
+{
+    static const double flexibility[] = {2e-8, 1e-7};
+    for (size_t i = 0; i < sizeof flexibility / sizeof *flexibility; i++) {
+        struct diagnosis d;
+        struct effect joint = {.name = "joint", .kind = catalogue_find("joint")->effect, .target = 0, .value = {flexibility[i]}};
+        diagnose(&joint, 0, "*FIT, MODEL=SOLID\n", &d);
+        assert_int_equal(d.result.verdict.kind, ROTID_NAMED);
+        assert_int_equal(d.ncause, 1);
+        assert_string_equal(d.cause[0].cause->id, "joint");
+        assert_close(d.cause[0].effect.value[0], flexibility[i], 0.1, 0);
+        diagnose_free(&d);
+    }
+}
+
 POOL_TEST(what_a_solid_lacks_is_named_and_sized)
 {
     struct diagnosis d;

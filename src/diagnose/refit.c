@@ -375,6 +375,14 @@ int refit_keep(struct pool *pool, const struct states *states, rotid_fit_result 
     return ROTID_OK;
 }
 
+/* Whether the meshes of a solid may be apart by another share with a cause than without it: a joint or a zone acts on a stretch
+ * as short as their elements, beside a corner at most. Of nine joints at a step whose fits held the mesh of the model without
+ * them one was named alone, and all are at their own mesh. */
+static int moves_mesh(const struct job *job, const struct cause_kind *cause)
+{
+    return cause->solid || (job->options.solid && (cause->width >= 0 || (cause->effect && cause->effect->joint)));
+}
+
 /* Fits from the scan's places with the own parameters at x; the best two are kept. Statuses of memory and cancellation only. */
 static int fit_from(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
                     const struct scan *scan, const struct scan_candidate *c, const rotid_environment *environment,
@@ -394,7 +402,7 @@ static int fit_from(struct pool *pool, const struct states *states, const int *n
             continue;
         double before = refit->chi2;
         status = keep_best(pool, &extended, c, fit, refit);
-        if (!status && c->cause->solid && refit->chi2 < fmin(before, scan->chi2 - PROMISES))
+        if (!status && moves_mesh(&states->state[c->home].job, c->cause) && refit->chi2 < fmin(before, scan->chi2 - PROMISES))
             status = refit_held(pool, number, holdout, environment, refit);
         if (status)
             return status;
