@@ -5,6 +5,7 @@
 #include "solid_rig.h"
 
 #include "deck/deck.h"
+#include "diagnose/causes/causes.h"
 #include "diagnose/diagnose.h"
 #include "model/model.h"
 #include "run/run.h"
@@ -212,6 +213,48 @@ POOL_TEST(rods_are_the_same_in_any_number_of_sections)
         }
         assert_true(most > 0.2);
     }
+}
+
+/* The rotor's own modes with a joint at the step: beside a fit that holds the mesh of the rotor without it, a zone at the step
+ * with 98 % made up for what the meshes have otherwise. */
+POOL_TEST(a_joint_at_a_step_needs_nothing_beside_it)
+{
+    char text[16384] = "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"
+                       "*MATERIAL, NAME=sheet\n*ELASTIC, TYPE=LAMINATED\n8e10, 2.6e10, 2e11, 0.3, 0.97\n*DENSITY\n7600\n"
+                       "*SHAFT, NAME=left, MATERIAL=steel\n0.3, 0.08\n*SHAFT, NAME=core, MATERIAL=sheet\n0.5, 0.14\n"
+                       "*SPRING, NAME=front\n0, 2e6\n*SPRING, NAME=rear\n0.8, 2e6\n*DISK, NAME=disk\n0.1, 2, 0.004\n"
+                       "*FIT, MODEL=SOLID\n*SENSORS\n";
+    const struct diagnose_options options = {.threads = 2};
+    struct effect joint = {.name = "joint", .kind = catalogue_find("joint")->effect, .target = 0, .value = {2e-8}};
+    struct message_list messages;
+    struct diagnosis d;
+    struct spectrum s;
+    struct job job;
+    for (int i = 0; i < SENSORS; i++)
+        (void)sprintf(text + strlen(text), "%d, %.17g\n", i + 1, 0.1 * i);
+    read_job(text, &messages, &job);
+    job.rotor.effect = &joint;
+    job.rotor.neffect = 1;
+    compute(&job, NULL, SPECTRUM_MESH, &s);
+    strcat(text, "*NOISE, FREQUENCY=0.001, SHAPE=0.01\n*MODES, COUNT=ELASTIC\n");
+    for (int k = 0; k < MODES; k++)
+        (void)sprintf(text + strlen(text), "%d, %.17g\n", k + 1, s.full_hz[k]);
+    for (int k = 0; k < MODES; k++) {
+        (void)sprintf(text + strlen(text), "*SHAPE, MODE=%d\n", k + 1);
+        for (int i = 0; i < SENSORS; i++)
+            (void)sprintf(text + strlen(text), "%d, %.17g\n", i + 1, s.shape[k * SENSORS + i]);
+    }
+    strcat(text, "*IDENTIFY\ncore.E, 3e10, 2e11, 7e10\ncore.G, 1e10, 6e10, 3e10\n");
+    read_job(text, &messages, &job);
+    message_open(&messages, &test_pool);
+    assert_status(diagnose_run(&test_pool, &job, &options, NULL, &messages, &d), ROTID_OK);
+    print_message("%s\n", d.result.verdict.sentence);
+    assert_int_equal(d.result.verdict.kind, ROTID_NAMED);
+    assert_int_equal(d.ncause, 1);
+    assert_string_equal(d.cause[0].cause->id, "joint");
+    assert_null(strstr(d.result.verdict.sentence, "and with"));
+    assert_close(d.cause[0].effect.value[0], 2e-8, 0.03, 0);
+    diagnose_free(&d);
 }
 
 TEST_GROUP(folder_make, folder_remove);
