@@ -147,10 +147,7 @@ struct turned {
 
 static void turn(const struct turned *t, const rotid_matrix *from, rotid_matrix *to)
 {
-    double sum[host_n * host_n] = {0}, work[host_n * host_n];
-    product_multiply(host_n, host_n, host_n, dense_of(&test_pool, from), t->v, work);
-    product_add_transposed(host_n, host_n, host_n, host_n, t->v, work, sum);
-    host_put(to, 1, sum);
+    host_put(to, 1, dense_congruence(&test_pool, host_n, host_n, dense_of(&test_pool, from), t->v));
 }
 
 static int turned_matrices(void *user, const double *x, rotid_matrix *stiffness, rotid_matrix *mass)

@@ -581,8 +581,6 @@ double basis_remove(int n, int count, const double *basis, double *v);
 void product_transposed(int m, int n, int k, const double *a, const double *b, double *c);
 /* C [n * n] := A' A, both triangles, A [k * n]; sizes >= 1. Half the work of product_transposed. */
 void product_gram(int n, int k, const double *a, double *c);
-/* C [m * n] := A B, A [m * k], B [k * n]; all sizes >= 1. */
-void product_multiply(int m, int n, int k, const double *a, const double *b, double *c);
 /* C [m * n] := C + A' B, A [k * m], B [k * n] with the leading dimension ld >= k; all sizes >= 1. */
 void product_add_transposed(int m, int n, int k, int ld, const double *a, const double *b, double *c);
 /* C [m * n] := C - A B, A [m * k], B [k * n]. */

@@ -68,11 +68,6 @@ void product_subtract(int m, int n, int k, const double *a, const double *b, dou
     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, m, n, k, -1, a, m, b, k, 1, c, m);
 }
 
-void product_multiply(int m, int n, int k, const double *a, const double *b, double *c)
-{
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, m, n, k, 1, a, m, b, k, 0, c, m);
-}
-
 void product_add_transposed(int m, int n, int k, int ld, const double *a, const double *b, double *c)
 {
     cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, m, n, k, 1, a, ld, b, ld, 1, c, m);

@@ -14,33 +14,6 @@ enum {
 
 #define SPANNED 1e-13 /* of a field: what is left beside its directions is rounding */
 
-/* Y += E V of an element with this field, for K and for M */
-static void add_image(struct solid_basis *basis, int e, const struct share *field)
-{
-    const struct solid *solid = basis->solid;
-    double part[2][SOLID_DOFS * SOLID_DOFS], *local = basis->work, *product = local + (ptrdiff_t)SOLID_DOFS * basis->count;
-    int has[2], dof[SOLID_DOFS], n = solid->mesh.ndof;
-    solid_element_matrices(solid, e, field, part[0], part[1], &has[0], &has[1]);
-    for (int i = 0; i < 2; i++) {
-        struct solid_image *image = &basis->image[i];
-        if (!has[i])
-            continue;
-        solid_tie_element(solid, &solid->mesh.element[e], part[i], dof);
-        for (int j = 0; j < basis->count; j++)
-            for (int d = 0; d < SOLID_DOFS; d++)
-                local[d + SOLID_DOFS * j] = dof[d] < 0 ? 0 : basis->v[dof[d] + (ptrdiff_t)j * n];
-        product_multiply(SOLID_DOFS, basis->count, SOLID_DOFS, part[i], local, product);
-        for (int d = 0; d < SOLID_DOFS; d++) {
-            if (dof[d] < 0)
-                continue;
-            image->from = dof[d] < image->from ? dof[d] : image->from;
-            image->end = dof[d] >= image->end ? dof[d] + 1 : image->end;
-            for (int j = 0; j < basis->count; j++)
-                image->y[dof[d] + (ptrdiff_t)j * n] += product[d + SOLID_DOFS * j];
-        }
-    }
-}
-
 /* sum [count * count] += V'Y of K or M, and Y := 0 */
 static void take_image(const struct solid_basis *basis, struct solid_image *image, double *sum)
 {
@@ -99,7 +72,7 @@ static void part_of_class(struct solid_basis *basis, int class, int which, const
                 any = 1;
             }
         if (any)
-            add_image(basis, e, field);
+            solid_add_images(basis->solid, e, field, basis->count, basis->v, basis->image);
     }
     take_image(basis, &basis->image[which], part);
 }
@@ -110,11 +83,10 @@ int solid_basis_new(struct pool *pool, struct solid *solid, int count, const dou
     *basis = (struct solid_basis){.solid = solid, .count = count, .v = v};
     basis->class = POOL_ARRAY(pool, struct solid_class, CLASS_MOST);
     basis->class_of = POOL_ARRAY(pool, int, (size_t)solid->mesh.nelement *SHARES);
-    basis->work = POOL_ARRAY(pool, double, (size_t)(2 * SOLID_DOFS) * (size_t)count);
     basis->sum = POOL_ARRAY(pool, double, 2 * square);
     for (int i = 0; i < 2; i++)
         basis->image[i] = (struct solid_image){POOL_ARRAY(pool, double, n *(size_t)count), solid->mesh.ndof, 0};
-    if (!basis->class || !basis->class_of || !basis->work || !basis->sum || !basis->image[0].y || !basis->image[1].y)
+    if (!basis->class || !basis->class_of || !basis->sum || !basis->image[0].y || !basis->image[1].y)
         return ROTID_ERROR_MEMORY;
     int status = classify(pool, basis);
     for (int c = 0; c < basis->nclass && !status; c++) {
@@ -211,7 +183,7 @@ static void assemble(struct solid_basis *basis, int p, rotid_matrix *k, rotid_ma
     for (int e = 0; e < solid->mesh.nelement; e++) {
         solid_fields_of(solid, e, p, field);
         if (beside_class(basis, e, p, field, rest))
-            add_image(basis, e, rest);
+            solid_add_images(solid, e, rest, count, basis->v, basis->image);
     }
     for (int i = 0; i < 2; i++) {
         double *sum = basis->sum + (ptrdiff_t)i * count * count;

@@ -842,30 +842,39 @@ static void add_product_of_element(const struct solid *solid, const struct solid
     }
 }
 
+void solid_add_images(const struct solid *solid, int index, const struct share *field, int count, const double *u,
+                      struct solid_image image[2])
+{
+    const struct solid_element *element = &solid->mesh.element[index];
+    double e[2][SOLID_DOFS * SOLID_DOFS];
+    int has[2];
+    solid_element_matrices(solid, index, field, e[0], e[1], &has[0], &has[1]);
+    for (int i = 0; i < 2; i++) {
+        if (!has[i])
+            continue;
+        add_product_of_element(solid, element, e[i], count, u, image[i].y);
+        take_in_element(solid, element, &image[i].from, &image[i].end);
+    }
+}
+
 int solid_derivative_products(const struct solid *solid, int p, int count, const double *u, double *dk_u, double *dm_u, int *from,
                               int *end)
 {
-    double ek[SOLID_DOFS * SOLID_DOFS], em[SOLID_DOFS * SOLID_DOFS];
+    struct solid_image image[2] = {{dk_u, solid->mesh.ndof, 0}, {dm_u, solid->mesh.ndof, 0}};
     struct share field[SHARES];
-    int has_k, has_m, attached_end = 0;
+    int attached_end = 0;
     *from = solid->mesh.ndof;
     take_in_attached(solid, p, from, &attached_end);
     if (attached_end)
         return 1;
-    *end = 0;
     memset(dk_u, 0, (size_t)count * (size_t)solid->mesh.ndof * sizeof *dk_u);
     memset(dm_u, 0, (size_t)count * (size_t)solid->mesh.ndof * sizeof *dm_u);
     for (int e = 0; e < solid->mesh.nelement; e++) {
-        const struct solid_element *element = &solid->mesh.element[e];
         solid_fields_of(solid, e, p, field);
-        solid_element_matrices(solid, e, field, ek, em, &has_k, &has_m);
-        if (has_k)
-            add_product_of_element(solid, element, ek, count, u, dk_u);
-        if (has_m)
-            add_product_of_element(solid, element, em, count, u, dm_u);
-        if (has_k || has_m)
-            take_in_element(solid, element, from, end);
+        solid_add_images(solid, e, field, count, u, image);
     }
+    *end = image[0].end > image[1].end ? image[0].end : image[1].end;
+    *from = image[0].from < image[1].from ? image[0].from : image[1].from;
     *from = *from < *end ? *from : *end;
     return 0;
 }

@@ -303,6 +303,16 @@ void solid_fields_of(const struct solid *solid, int index, int p, struct share *
 void solid_element_matrices(const struct solid *solid, int index, const struct share *field, double *k, double *m, int *has_k,
                             int *has_m);
 
+/* What an assembly makes of motions: y [ndof * count], zero but in rows from ... end - 1; ndof and 0 where there are none. */
+struct solid_image {
+    double *y;
+    int from, end;
+};
+
+/* The images of K and M += E u, u [ndof * count], of element `index` with the fields [SHARES] of its shares. */
+void solid_add_images(const struct solid *solid, int index, const struct share *field, int count, const double *u,
+                      struct solid_image image[2]);
+
 /* e [24 * 24] := the element in unknowns of the mesh, dof [24], -1 where there is none. */
 void solid_tie_element(const struct solid *solid, const struct solid_element *element, double *e, int *dof);
 
@@ -344,11 +354,6 @@ struct solid_class {
         *part; /* [8 * count * count] V'M V of rho 1, where has_mass, and V'K V of each direction; 2 of one that does not move */
 };
 
-struct solid_image {
-    double *y; /* [ndof * count] */
-    int from, end;
-};
-
 struct solid_basis {
     struct solid *solid;
     int count;       /* up to BASIS_MOST */
@@ -356,8 +361,8 @@ struct solid_basis {
     int nclass;
     struct solid_class *class;
     int *class_of;               /* [nelement * SHARES], -1: none */
-    struct solid_image image[2]; /* K V and M V of elements, rows from ... end - 1, until V' is multiplied to it */
-    double *work, *sum;
+    struct solid_image image[2]; /* K V and M V of elements, until V' is multiplied to them */
+    double *sum;
 };
 
 /* At the values of the solid; solid and v are kept. ROTID_OK or ROTID_ERROR_MEMORY. */
