@@ -29,10 +29,24 @@ static void compute(const struct job *job, const double *x, int parts, struct sp
                   ROTID_OK);
 }
 
+/* *MODES with that option and shapes, each number `share` of 0.1 and 1 % off. */
+static void put_modes(char *text, const char *option, const struct spectrum *s, int shapes, double share)
+{
+    static const double off[MODES] = {1, -0.7, 0.4, -1.2};
+    (void)sprintf(text + strlen(text), "*NOISE, FREQUENCY=0.001%s\n*MODES%s\n", shapes ? ", SHAPE=0.01" : "", option);
+    for (int k = 0; k < MODES; k++)
+        (void)sprintf(text + strlen(text), "%d, %.17g\n", k + 1, s->full_hz[k] * (1 + 0.001 * share * off[k]));
+    for (int k = 0; k < MODES && shapes; k++) {
+        (void)sprintf(text + strlen(text), "*SHAPE, MODE=%d\n", k + 1);
+        for (int i = 0; i < SENSORS; i++)
+            (void)sprintf(text + strlen(text), "%d, %.17g\n", i + 1,
+                          s->shape[k * SENSORS + i] + 0.01 * share * off[(3 * i + k) % MODES]);
+    }
+}
+
 /* Modes of the rotor itself, off by 0.1 and 1 % to both sides: a misfit that no E and G take away. */
 static void measured_job(int shapes, struct job *job)
 {
-    static const double off[MODES] = {1, -0.7, 0.4, -1.2};
     char text[16384];
     struct message_list quiet;
     struct spectrum s;
@@ -43,14 +57,7 @@ static void measured_job(int shapes, struct job *job)
         (void)sprintf(text + strlen(text), "%d, %.17g\n", i + 1, 0.8 * (i + 0.5) / SENSORS);
     read_job(text, &quiet, job);
     compute(job, NULL, SPECTRUM_MESH, &s);
-    (void)sprintf(text + strlen(text), "*NOISE, FREQUENCY=0.001%s\n*MODES\n", shapes ? ", SHAPE=0.01" : "");
-    for (int k = 0; k < MODES; k++)
-        (void)sprintf(text + strlen(text), "%d, %.17g\n", k + 1, s.full_hz[k] * (1 + 0.001 * off[k]));
-    for (int k = 0; k < MODES && shapes; k++) {
-        (void)sprintf(text + strlen(text), "*SHAPE, MODE=%d\n", k + 1);
-        for (int i = 0; i < SENSORS; i++)
-            (void)sprintf(text + strlen(text), "%d, %.17g\n", i + 1, s.shape[k * SENSORS + i] + 0.01 * off[(3 * i + k) % MODES]);
-    }
+    put_modes(text, "", &s, shapes, 1);
     strcat(text, "*IDENTIFY\ncore.E, 1e10, 4e11, 0.6e11\ncore.G, 1e10, 1.5e11, 0.7e11\n");
     read_job(text, &quiet, job);
 }
@@ -236,14 +243,7 @@ POOL_TEST(a_joint_at_a_step_needs_nothing_beside_it)
     job.rotor.effect = &joint;
     job.rotor.neffect = 1;
     compute(&job, NULL, SPECTRUM_MESH, &s);
-    strcat(text, "*NOISE, FREQUENCY=0.001, SHAPE=0.01\n*MODES, COUNT=ELASTIC\n");
-    for (int k = 0; k < MODES; k++)
-        (void)sprintf(text + strlen(text), "%d, %.17g\n", k + 1, s.full_hz[k]);
-    for (int k = 0; k < MODES; k++) {
-        (void)sprintf(text + strlen(text), "*SHAPE, MODE=%d\n", k + 1);
-        for (int i = 0; i < SENSORS; i++)
-            (void)sprintf(text + strlen(text), "%d, %.17g\n", i + 1, s.shape[k * SENSORS + i]);
-    }
+    put_modes(text, ", COUNT=ELASTIC", &s, 1, 0);
     strcat(text, "*IDENTIFY\ncore.E, 3e10, 2e11, 7e10\ncore.G, 1e10, 6e10, 3e10\n");
     read_job(text, &messages, &job);
     message_open(&messages, &test_pool);

@@ -25,6 +25,12 @@ static void add_term(struct motion *motion, int dof, double w)
     motion->weight[motion->count++] = w;
 }
 
+static void divide(struct motion *motion, double by)
+{
+    for (int i = 0; i < motion->count; i++)
+        motion->weight[i] /= by;
+}
+
 /* +1, or -1 for V on the axis */
 static double sign_of(const struct solid_node *node, int component)
 {
@@ -87,11 +93,11 @@ int motion_of_section(struct pool *pool, const struct rotor *rotor, const struct
                 add_term(theta, node->dof[2], w * r * shape[i]);
             }
         }
-    for (int i = 0; i < v->count && !status; i++)
-        v->weight[i] /= mesh->type == MODE_TORSION ? inertia : area;
-    for (int i = 0; i < theta->count && !status; i++)
-        theta->weight[i] /= inertia;
-    return status;
+    if (status)
+        return status;
+    divide(v, mesh->type == MODE_TORSION ? inertia : area);
+    divide(theta, inertia);
+    return ROTID_OK;
 }
 
 /* U of node 5 (V/r, W) of an element whose sensor has taken that degree of freedom: (sensor - n1 U1 - n2 U2)/n5 */
@@ -154,11 +160,11 @@ int motion_in_slice(struct pool *pool, const struct rotor *rotor, const struct s
             }
         }
     }
-    for (int i = 0; i < v->count && !status; i++)
-        v->weight[i] /= area;
-    for (int i = 0; i < theta->count && !status; i++)
-        theta->weight[i] /= inertia;
-    return status;
+    if (status)
+        return status;
+    divide(v, area);
+    divide(theta, inertia);
+    return ROTID_OK;
 }
 
 int motion_axial(struct pool *pool, const struct solid_mesh *mesh, int line, double pitch, double reach, struct motion *w)

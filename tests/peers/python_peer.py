@@ -525,6 +525,7 @@ def from_nastran(checks, folder):
         "a factor on all masses": (bulk().replace("BEGIN BULK", "BEGIN BULK\nPARAM,WTMASS,.00259"), "PARAM WTMASS: multiplies all masses by 0.00259"),
         "a factor on all masses in the case control": (bulk().replace("BEGIN BULK", "SUBCASE 1\n PARAM,GRDPNT,0\n PARAM,WTMASS,.00259 $ inch\n PARAM,K6ROT,1.\nBEGIN BULK"),
                                                        "PARAM WTMASS: multiplies all masses by .00259"),
+        "a factor in the case control beside one of 1": (bulk().replace("BEGIN BULK", "PARAM,WTMASS,.5\nBEGIN BULK\nPARAM,WTMASS,1.0"), "PARAM WTMASS: multiplies all masses by .5"),
         "a part by itself": (bulk().replace("CBAR,3,3,4,3,", "BEGIN SUPER=1\nCBAR,3,3,4,3,"), "BEGIN SUPER=1: begins a part"),
         "a place that is no number": (bulk().replace("GRID,2,,300.,", "GRID,2,,nan,"), "GRID 2: is at [nan, 0.0, 0.0]"),
         "no bulk data": ("hello world, this is no deck\n", str(path)),

@@ -36,9 +36,9 @@ def from_nastran(source, units="SI"):
     left = sorted(set(model.card_count) & {"SPC", "SPC1", "SPCADD", "MPC"}) + ["PS of GRID"] * any(grid.ps for grid in model.nodes.values())
     if left:
         notes[f"{', '.join(left)} are left out: state supports as *SPRING"] = None
-    factor = next(factors_on_masses(model), 1)
-    if factor != 1:
-        refuse(source, "PARAM WTMASS", f"multiplies all masses by {factor}, expected masses and densities without a factor")
+    for factor in factors_on_masses(model):
+        if factor not in (1, "1", "1."):
+            refuse(source, "PARAM WTMASS", f"multiplies all masses by {factor}, expected masses and densities without a factor")
     for kind, number, _ in model.superelement_models:
         refuse(source, f"BEGIN {kind}={number}", "begins a part of the model by itself, expected all in one BEGIN BULK")
     place = {}
@@ -61,7 +61,7 @@ def from_nastran(source, units="SI"):
 
 
 def factors_on_masses(model):
-    """PARAM,WTMASS of the bulk data, and of the case control, where pyNastran keeps one PARAM of a subcase."""
+    """PARAM,WTMASS: numbers of the bulk data; texts of the case control, where pyNastran keeps one PARAM of a subcase."""
     if "WTMASS" in model.params:
         yield model.params["WTMASS"].values[0]
     for line in model.case_control_lines or []:

@@ -253,7 +253,8 @@ def compare(meant, geometry):
 
 def write_deck(rotor, path, program=None):
     """Writes the rotor as a deck. The deck is read back by `rotid check` and compared with what was meant before it is in place: whole
-    or not there. What of the source is not in the deck is warned of, and what `rotid check` warns of. RotidError where the rotor has no deck; returns the path."""
+    or not there. What of the source is not in the deck is warned of, and what `rotid check` warns of. RotidError where the rotor has no
+    deck; returns the path."""
     text, meant = deck_of(rotor)
     path = os.fspath(path)
     temporary = None
